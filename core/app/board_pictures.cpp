@@ -52,7 +52,8 @@ FoundBoards find_boards(const calibrate::BoardFinder& finder, const calibrate::P
     if (complete(board)) {
       out.pairs.push_back(std::move(board));
     } else {
-      if (out.without.empty()) out.advice = calibrate::better_options(finder.board(), pair.left);
+      const cv::Mat& lacking = board.corners[0].ids.empty() ? pair.left : pair.right;
+      if (out.without.empty()) out.advice = calibrate::better_options(finder.board(), lacking);
       out.without.push_back(pair.name);
     }
     if (const std::string problem = seen.early_problem(); !problem.empty())

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <set>
+#include <filesystem>
+#include <memory>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -38,22 +39,29 @@ cv::Mat read_picture(const std::string& file, const std::optional<int>& bits) {
   return read.image;
 }
 
-void read_videos(const std::string& left, const std::string& right, int step,
+/// Reads frames of two videos, or of one with both views, which both pictures of a pair then are.
+void read_videos(const std::vector<std::string>& names, int step,
                  const std::function<void(PicturePair)>& take,
                  const std::function<void(const std::string&)>& tell) {
-  const std::array files{open_video(left), open_video(right)};
-  const std::array infos{files[0]->info(), files[1]->info()};
+  std::vector<std::unique_ptr<VideoFile>> files;
+  std::vector<VideoInfo> infos;
+  for (const std::string& name : names) {
+    files.push_back(open_video(name));
+    infos.push_back(files.back()->info());
+    std::ranges::for_each(infos.back().notes, tell);
+  }
   const VideoTimeline line = make_timeline(infos, {});
-  for (const VideoInfo& info : infos) std::ranges::for_each(info.notes, tell);
   std::ranges::for_each(line.notes, tell);
   for (std::size_t i = 0; i < line.frames.size(); i += static_cast<std::size_t>(step)) {
     const TimelineFrame& frame = line.frames[i];
     if (!frame.complete()) continue;
-    PicturePair pair{fmt::format("frame {}", frame.number.value_or(static_cast<int>(i))), {}, {}};
-    std::string problem = files[0]->read(*frame.pictures[0], pair.left);
-    if (problem.empty()) problem = files[1]->read(*frame.pictures[1], pair.right);
+    std::array<cv::Mat, 2> pictures;
+    std::string problem;
+    for (std::size_t v = 0; v < files.size() && problem.empty(); ++v)
+      problem = files[v]->read(*frame.pictures[v], pictures[v]);
     if (problem.empty())
-      take(std::move(pair));
+      take({fmt::format("frame {}", frame.number.value_or(static_cast<int>(i))), pictures[0],
+            pictures[files.size() - 1]});
     else
       tell(problem);
   }
@@ -70,7 +78,8 @@ void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePa
                                 files.left, first.size(), files.right, second.size()));
   }
   if (first.size() == 1 && is_video(first[0]))
-    return read_videos(first[0], second[0], files.step, take, tell);
+    return read_videos(files.layout ? first : std::vector{first[0], second[0]}, files.step, take,
+                       tell);
   for (std::size_t i = 0; i < first.size(); ++i)
     take({std::filesystem::path(first[i]).filename().string(), read_picture(first[i], files.bits),
           read_picture(second[i], files.bits)});
@@ -79,9 +88,9 @@ void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePa
 }  // namespace
 
 bool is_video(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 13> kEndings = {".mp4", ".avi",  ".mkv",  ".mov", ".webm",
-                                                         ".m4v", ".mpg",  ".mpeg", ".wmv", ".ts",
-                                                         ".mts", ".m2ts", ".3gp"};
+  constexpr auto kEndings = std::to_array<std::string_view>(
+      {".3gp", ".asf", ".avi", ".flv", ".m2ts", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg",
+       ".mts", ".mxf", ".nut", ".ogv", ".ts", ".webm", ".wmv"});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -93,17 +102,13 @@ void read_pairs(const PairFiles& files, const std::function<void(PicturePair)>& 
   if (!files.layout) return read_whole_pairs(files, take, tell);
   PairFiles whole = files;
   whole.right = files.left;
-  std::set<std::string> told;  // the file is read as both views, and each has its notes
-  const auto tell_once = [&](const std::string& note) {
-    if (told.insert(note).second) tell(note);
-  };
   const auto split = [&](PicturePair pair) {
     view_size(*files.layout, pair.left.cols, pair.left.rows, pair.name);
     pair.left = split_views(*files.layout, pair.left)[0];
     pair.right = split_views(*files.layout, pair.right)[1];
     take(std::move(pair));
   };
-  read_whole_pairs(whole, split, tell_once);
+  read_whole_pairs(whole, split, tell);
 }
 
 std::vector<std::string> notes_on(const PairFiles& files) {

@@ -44,6 +44,7 @@ Owned<AVCodecContext> encoder_of(const VideoRecipe& recipe, const AVFormatContex
   out->flags |= AV_CODEC_FLAG_QSCALE;
   out->global_quality = FF_QP2LAMBDA;
   out->gop_size = 100;
+  out->max_b_frames = recipe.reordered;
   out->thread_count = 1;
   if (format.oformat->flags & AVFMT_GLOBALHEADER) out->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   checked(avcodec_open2(out.get(), codec, nullptr), "the encoder does not open");

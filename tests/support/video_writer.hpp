@@ -24,6 +24,7 @@ struct VideoRecipe {
   std::vector<std::int64_t> times{};  ///< when each frame is shown; those before 0 are edited out
   /// Fills frame i; default: its first plane has the value 20 + 10 i, others 128.
   std::function<void(AVFrame&, int)> paint{};
+  int reordered = 0;  ///< B frames in a row
   AVColorSpace matrix = AVCOL_SPC_UNSPECIFIED;
   AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
   AVRational aspect{0, 1};

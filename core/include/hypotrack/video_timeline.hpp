@@ -34,7 +34,7 @@ struct TimelineFrame {
 
 /// The frames of one video, or of two from the first to the last pair.
 struct VideoTimeline {
-  double frame_rate = 0;              ///< frames per second of the first video
+  double frame_rate = 0;              ///< frames per second: of the first video if not thinned out
   std::vector<TimelineFrame> frames;  ///< times and numbers grow
   std::vector<std::string> notes;     ///< lines for the user: rates, distances, gaps
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/error.hpp"
@@ -77,6 +78,35 @@ TEST(PicturePairsOfVideos, AreReadFromFilesOfCamcordersAndPhones) {
     read_pairs({file, file}, [&](const PicturePair&) { ++pairs; });
     EXPECT_EQ(pairs, 9) << name;
   }
+}
+
+TEST(PicturePairsOfVideos, AreOfAllContainersThatRecordersWrite) {
+  const test::TemporaryDirectory folder;
+  for (const char* ending : {".ts", ".MTS", ".m4v", ".flv", ".mpg"}) {
+    const std::string file = folder.path() / (std::string("a") + ending);
+    test::VideoRecipe recipe{.codec = "mpeg2video", .tick = {1, 25}};
+    if (std::string_view(ending) == ".m4v") recipe.codec = "mpeg4";
+    if (std::string_view(ending) == ".flv") recipe.codec = "flv";
+    for (int i = 0; i < 50; ++i) recipe.times.push_back(i);
+    recipe.paint = [](AVFrame& frame, int i) { test::fill_plane(frame, 0, 20 + 4 * i); };
+    test::write_video(file, recipe);
+    int pairs = 0;
+    read_pairs({file, file}, [&](const PicturePair&) { ++pairs; });
+    EXPECT_EQ(pairs, 50) << ending;
+  }
+}
+
+TEST(PicturePairsOfVideos, OfOneVideoHaveNoPartnersToTell) {
+  const test::TemporaryDirectory folder;
+  const std::string file = folder.path() / "both.mkv";
+  test::write_video(file, without(5));
+  std::vector<std::string> names, notes;
+  read_pairs(
+      {.left = file, .right = "", .layout = StereoLayout::side_by_side},
+      [&](const PicturePair& pair) { names.push_back(pair.name); },
+      [&](const std::string& note) { notes.push_back(note); });
+  EXPECT_EQ(names.size(), 8);
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("both.mkv: 1 frame is missing in the file")));
 }
 
 /// A picture of one brightness.

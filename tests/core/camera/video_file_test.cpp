@@ -52,6 +52,21 @@ TEST_F(VideoFiles, TellWhenEachFrameIsShown) {
   }
 }
 
+TEST_F(VideoFiles, HaveTimesThatProgramStreamsLeaveOut) {
+  for (const int reordered : {0, 2}) {
+    const auto video = written(
+        "a.mpg",
+        {.codec = "mpeg2video", .tick = {1, 25}, .times = every(1, 20), .reordered = reordered});
+    const std::vector<double>& times = video->info().times;
+    ASSERT_EQ(times.size(), 20) << reordered;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      EXPECT_NEAR(times[i] - times[0], static_cast<double>(i) / 25, 1e-9);
+      EXPECT_NEAR(read(*video, i).at<cv::Vec3b>(20, 20)[0],
+                  (4 + 10 * static_cast<double>(i)) * 255 / 219.0, 6);
+    }
+  }
+}
+
 TEST_F(VideoFiles, LeaveOutFramesThatAnEditListDoesNotShow) {
   const auto video = written("cut.mp4", {.times = every(20, 10, -80)});
   EXPECT_THAT(video->info().times, testing::SizeIs(6));
@@ -210,6 +225,16 @@ TEST_F(VideoFiles, SayThatTheyAreCutOff) {
   const auto video = open_video(file("whole.mkv"));
   EXPECT_THAT(video->info().problem_of_end,
               AllOf(HasSubstr("its header says"), HasSubstr("cut off")));
+}
+
+TEST_F(VideoFiles, AreNotCutOffWhereAviRepeatsFrames) {
+  std::vector<std::int64_t> times;
+  for (std::int64_t i = 0; i < 40; ++i)
+    if (i % 5 != 2 && i % 7 != 3) times.push_back(i);
+  const auto video = written("repeats.avi", {.tick = {1, 25}, .times = times});
+  EXPECT_EQ(video->info().times.size(), times.size());
+  EXPECT_NEAR(video->info().times.back(), static_cast<double>(times.back()) / 25, 1e-9);
+  EXPECT_EQ(video->info().problem_of_end, "");
 }
 
 TEST_F(VideoFiles, NeverOpenWhatOthersName) {

@@ -144,6 +144,29 @@ TEST(VideoTimeline, AFasterVideoIsThinnedOut) {
   EXPECT_EQ(line.frames[7].pictures[1], 14);
 }
 
+TEST(VideoTimeline, AFirstVideoThatIsFasterIsThinnedOut) {
+  VideoInfo fast = video("f", 40, {}, 0, 60);
+  const VideoInfo slow = video("s", 20, {6, 7});
+  const VideoTimeline line = pair(fast, slow);
+  EXPECT_EQ(line.frames.size(), 20);
+  EXPECT_NEAR(line.frame_rate, 30, 1e-9);
+  EXPECT_THAT(missing(line), ElementsAre(12, 14));
+  EXPECT_NEAR(line.frames[7].time, 7 / 30.0, 1e-9);
+  EXPECT_EQ(line.frames[8].pictures[0], 16);
+  for (std::size_t i = 1; i < fast.times.size(); i += 2) fast.times[i] -= 0.005;
+  EXPECT_LE(missing(pair(fast, slow)).size(), 2);
+  EXPECT_THAT(missing(pair(video("f", 400, {}, 0, 60), video("s", 200, {}, 0, 30000 / 1001.0))),
+              IsEmpty());
+}
+
+TEST(VideoTimeline, AFrameThatAFasterVideoMissesIsMissing) {
+  const VideoInfo slow = video("s", 20), fast = video("f", 40, {14, 33}, 0, 60);
+  EXPECT_THAT(missing(pair(slow, fast)), ElementsAre(7));
+  const VideoTimeline line = pair(fast, slow);
+  EXPECT_LE(farthest(fast, slow, line), 0.5 / 60);
+  EXPECT_EQ(line.frames.size(), 20);
+}
+
 TEST(VideoTimeline, ACloseRatePairsByTime) {
   const VideoInfo left = video("l", 900), right = video("r", 900, {}, 0, 29.8);
   const VideoTimeline line = pair(left, right);

@@ -28,15 +28,26 @@ struct Read {
 
 std::string_view container_of(const Demuxer& video) { return video.format->iformat->name; }
 
+/// Returns whether an AVI file of one part is as long as its first bytes say.
+bool is_whole_avi(const Demuxer& video) {
+  constexpr std::int64_t kHead = 8, kNextPart = 12;  // bytes
+  const std::int64_t size = avio_size(video.io.get());
+  if (avio_seek(video.io.get(), kHead / 2, SEEK_SET) < 0) return false;
+  const std::int64_t end = kHead + std::int64_t{avio_rl32(video.io.get())};
+  return end <= size && size < end + kNextPart;
+}
+
 /// Returns the number of packets that the header promises; 0 if it does not say. The `nb_frames` of
-/// MP4 count frames that its edit list leaves out; those of AVI are ticks, of which a frame may
-/// take several.
+/// MP4 count frames that its edit list leaves out. Those of AVI are ticks: a frame may take
+/// several, and ticks without data repeat the frame before, at the end of a whole file, too.
 std::size_t promised(const Demuxer& video, const Read& read) {
   const AVStream& stream = video.pictures();
-  if (container_of(video) == "avi" && stream.nb_frames > 0) {
+  if (container_of(video) == "avi" && stream.nb_frames > 0 && read.packets > 0) {
+    if (is_whole_avi(video)) return 0;
     const double ticks = static_cast<double>(read.last_start + 1);
     const double per_frame = std::max(1.0, std::round(ticks / static_cast<double>(read.packets)));
-    return static_cast<std::size_t>(static_cast<double>(stream.nb_frames) / per_frame);
+    const double left = static_cast<double>(stream.nb_frames) - (ticks - 1 + per_frame);
+    return read.packets + static_cast<std::size_t>(std::max(0.0, left) / per_frame);
   }
   if (container_of(video).starts_with("mov"))
     return static_cast<std::size_t>(std::max(0, avformat_index_get_entries_count(&stream)));
@@ -83,11 +94,38 @@ void leave_out_untimed(std::vector<ShownPicture>& shown) {
   shown = std::move(kept);
 }
 
+/// Completes the times of MPEG-1 and MPEG-2, which files may give for some pictures only. In the
+/// order of presentation, pictures have the times at which they or the next ones are decoded.
+/// Returns false, and changes nothing, if the times do not fit.
+bool complete_from_decoding(std::vector<ShownPicture>& shown, std::vector<std::int64_t> decoding,
+                            AVCodecID codec) {
+  if (codec != AV_CODEC_ID_MPEG1VIDEO && codec != AV_CODEC_ID_MPEG2VIDEO) return false;
+  std::vector<std::int64_t> known, open;
+  for (const ShownPicture& picture : shown)
+    if (is_timed(picture)) known.push_back(picture.time);
+  if (known.empty() || shown.size() < 2 || std::ranges::count(decoding, AV_NOPTS_VALUE) > 0)
+    return false;
+  std::ranges::sort(known);
+  std::ranges::sort(decoding);
+  if (known[0] != decoding[0]) {  // there are pictures that are shown before earlier ones
+    decoding.push_back(2 * decoding.back() - decoding[decoding.size() - 2]);
+    decoding.erase(decoding.begin());
+  }
+  std::ranges::set_difference(decoding, known, std::back_inserter(open));
+  if (open.size() + known.size() != shown.size()) return false;
+  auto next = open.begin();
+  for (ShownPicture& picture : shown)
+    if (!is_timed(picture)) picture.time = *next++;
+  return true;
+}
+
 /// Gives the pictures times, where not all packets have one.
 void complete_times(PacketTimes& out, const std::vector<std::int64_t>& decoding_times,
                     const Demuxer& video) {
   const auto timed = std::ranges::count_if(out.shown, is_timed);
-  out.presented = timed == std::ssize(out.shown);
+  out.presented =
+      timed == std::ssize(out.shown) ||
+      complete_from_decoding(out.shown, decoding_times, video.pictures().codecpar->codec_id);
   if (!out.presented && has_clock(video) && 5 * timed > 2 * std::ssize(out.shown)) {
     leave_out_untimed(out.shown);
     out.presented = true;

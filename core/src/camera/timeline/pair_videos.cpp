@@ -13,6 +13,7 @@
 namespace hypotrack::internal {
 namespace {
 
+constexpr double kFaster = 1.5;     // a faster video is thinned out
 constexpr double kSameRate = 0.01;  // tolerated difference of rates, which are rounded or means
 
 bool about_equal(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance * a; }
@@ -41,6 +42,14 @@ void check_rates(const VideoPair& pair) {
                   "multiple of the other, since videos are paired frame by frame. Convert one of "
                   "them, or give `frame_rate` if what the files say is wrong",
                   pair.videos[0].name, a, pair.videos[1].name, b));
+}
+
+/// Returns half a frame of the slower video, but less than a frame of an even faster one: it would
+/// take the neighbour of a frame that is missing.
+double usual_tolerance(const VideoPair& pair) {
+  const double half = 0.5 / pair.slower();
+  const double faster = std::max(pair.left.rate, pair.right.rate);
+  return pair.left.even && pair.right.even ? std::min(half, 0.75 / faster) : half;
 }
 
 /// Sets the shift between two clocks from their starts. Returns a note, or an empty text.
@@ -124,7 +133,6 @@ std::vector<TimelineFrame> pair_times(const VideoPair& pair) {
 
 /// Keeps the frames from the first to the last pair, and of a faster video only those in pairs.
 void keep_pairs(std::vector<TimelineFrame>& frames, const VideoPair& pair) {
-  constexpr double kFaster = 1.5;
   const double ratio = pair.left.rate / pair.right.rate;
   std::erase_if(frames, [&](const TimelineFrame& frame) {
     return (ratio > kFaster && !frame.pictures[1]) || (ratio < 1 / kFaster && !frame.pictures[0]);
@@ -152,6 +160,11 @@ void number_between(std::vector<TimelineFrame>& frames) {
 
 double VideoPair::slower() const { return std::min(left.rate, right.rate); }
 
+int VideoPair::thinning() const {
+  const double ratio = left.rate / right.rate;
+  return ratio > kFaster ? static_cast<int>(std::lround(ratio)) : 1;
+}
+
 double VideoPair::right_time(std::size_t i) const {
   return right.first + right.times[i] - shift - left.first;
 }
@@ -163,7 +176,7 @@ double VideoPair::distance(const TimelineFrame& frame) const {
 std::vector<TimelineFrame> pair_frames(VideoPair& pair, const TimelineSettings& settings,
                                        std::vector<std::string>& notes) {
   if (!settings.frame_rate) check_rates(pair);
-  pair.tolerance = settings.tolerance.value_or(0.5 / pair.slower());
+  pair.tolerance = settings.tolerance.value_or(usual_tolerance(pair));
   if (settings.offset || settings.frame_rate)
     apply_offset(pair, settings.offset.value_or(0));
   else if (std::string note = relate_clocks(pair); !note.empty())

@@ -19,6 +19,8 @@ struct VideoPair {
 
   /// Returns the lower of the frame rates.
   double slower() const;
+  /// Returns how many frames the left video takes in the time of a frame of the pair.
+  int thinning() const;
   /// Returns the time of a right frame on the left clock, since its first frame.
   double right_time(std::size_t i) const;
   /// Returns the time between the pictures of a complete frame, seconds.

@@ -10,8 +10,8 @@
 namespace hypotrack {
 namespace {
 
-/// Adds frames without pictures where numbers are left out.
-int fill_gaps(std::vector<TimelineFrame>& frames, double rate) {
+/// Adds frames without pictures where numbers are left out; `step` is usual from one to the next.
+int fill_gaps(std::vector<TimelineFrame>& frames, double rate, int step) {
   constexpr double kLongest = 10;  // seconds; a longer gap is a pause of the recording
   std::vector<TimelineFrame> filled;
   int added = 0;
@@ -19,16 +19,27 @@ int fill_gaps(std::vector<TimelineFrame>& frames, double rate) {
     const std::size_t videos = frame.pictures.size();
     if (!filled.empty() && filled.back().number && frame.number) {
       const TimelineFrame before = filled.back();
-      const int gap = *frame.number - *before.number;
+      const int gap = (*frame.number - *before.number + (step - 1) / 2) / step;
       if (gap > 1 && gap <= kLongest * rate) added += gap - 1;
       for (int k = 1; k < gap && gap <= kLongest * rate; ++k)
-        filled.push_back({before.time + (frame.time - before.time) * k / gap, *before.number + k,
+        filled.push_back({before.time + (frame.time - before.time) * k / gap,
+                          *before.number + k * step,
                           std::vector<std::optional<std::size_t>>(videos)});
     }
     filled.push_back(std::move(frame));
   }
   frames = std::move(filled);
   return added;
+}
+
+/// Adds what lacks in all videos, and says so.
+void tell_gaps(std::span<const VideoInfo> videos, VideoTimeline& line, int step) {
+  const int added = fill_gaps(line.frames, line.frame_rate, step);
+  if (added == 0) return;
+  const bool two = videos.size() == 2;
+  line.notes.push_back(fmt::format(
+      "{}{}: {} frame{} missing in the file{}: there are gaps in the times", videos[0].name,
+      two ? " and " + videos[1].name : "", added, added == 1 ? " is" : "s are", two ? "s" : ""));
 }
 
 std::string rate_text(const VideoClock& clock) {
@@ -55,19 +66,23 @@ std::string note_of_pairs(const VideoPair& pair, const std::vector<TimelineFrame
   return out;
 }
 
-VideoTimeline of_one(const VideoInfo& video, const VideoClock& clock) {
+VideoTimeline of_one(std::span<const VideoInfo> videos, const VideoClock& clock) {
   VideoTimeline out{clock.rate, {}, {}};
   for (std::size_t i = 0; i < clock.times.size(); ++i)
     out.frames.push_back({clock.times[i], static_cast<int>(clock.numbers[i]), {i}});
   if (!clock.even)
-    out.notes.push_back(video.name + ": its frame rate varies; times are those of the file");
+    out.notes.push_back(videos[0].name + ": its frame rate varies; times are those of the file");
+  tell_gaps(videos, out, 1);
   return out;
 }
 
 VideoTimeline of_two(VideoPair pair, const TimelineSettings& settings) {
-  VideoTimeline out{pair.left.rate, {}, {}};
+  const int step = pair.thinning();
+  VideoTimeline out{pair.left.rate / step, {}, {}};
   out.frames = pair_frames(pair, settings, out.notes);
   if (!settings.frame_rate) out.notes.push_back(note_of_pairs(pair, out.frames));
+  // Which frames of an uneven video are left out follows from the times of the other.
+  if (step == 1 || (pair.left.even && pair.right.even)) tell_gaps(pair.videos, out, step);
   return out;
 }
 
@@ -79,16 +94,8 @@ bool TimelineFrame::complete() const {
 
 VideoTimeline make_timeline(std::span<const VideoInfo> videos, const TimelineSettings& settings) {
   const VideoClock left = clock_of(videos[0], settings.frame_rate);
-  VideoTimeline out =
-      videos.size() == 1
-          ? of_one(videos[0], left)
-          : of_two({videos, left, clock_of(videos[1], settings.frame_rate)}, settings);
-  if (const int added = fill_gaps(out.frames, out.frame_rate); added > 0)
-    out.notes.push_back(
-        fmt::format("{}{}: {} frame{} missing in the file{}: there are gaps in the times",
-                    videos[0].name, videos.size() == 2 ? " and " + videos[1].name : "", added,
-                    added == 1 ? " is" : "s are", videos.size() == 2 ? "s" : ""));
-  return out;
+  if (videos.size() == 1) return of_one(videos, left);
+  return of_two({videos, left, clock_of(videos[1], settings.frame_rate)}, settings);
 }
 
 std::string missing_picture(std::span<const VideoInfo> videos, const TimelineFrame& frame) {
