@@ -64,6 +64,11 @@ start() {
   local program
   for program in "slurmctld -c" slurmd; do
     $program 2>"$dir/stderr.log" || { cannot_run "${program%% *}"; return 77; }
+    # A service writes its number after it has gone to the background, and stop needs that.
+    for _ in $(seq 100); do
+      [ -s "$dir/${program%% *}.pid" ] && break
+      sleep 0.1
+    done
   done
   for _ in $(seq 100); do
     [ "$(sinfo --noheader --format=%t 2>/dev/null)" = idle ] && return 0
