@@ -131,8 +131,8 @@ void note_unused_settings(OrbSettings& settings, const std::string& file_name,
                          {}};
   for (const char* key : {"newWidth", "newHeight", "imageScale"}) {
     const std::string name = std::string("Camera.") + key;
-    const std::string& text = settings.file.get(name).scalar();
-    const std::string& same =
+    const std::string text = settings.file.get(name).scalar();
+    const std::string same =
         settings.file.get(std::string_view(key) == "newWidth" ? "Camera.width" : "Camera.height")
             .scalar();
     (text == same || text == "1.0" ? settings.used : smaller.paths).push_back(name);
