@@ -7,7 +7,7 @@
 #include "hypotrack/error.hpp"
 #include "lab/live/live_view.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the message about a command that is not there.
@@ -25,7 +25,7 @@ std::unique_ptr<LiveView> open_live_view(const LiveViewOptions& /*options*/,
   throw ConfigError(absent("run --web"));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 
 namespace hypotrack::app {
 namespace {
