@@ -68,12 +68,18 @@ std::string of_squares(const Stretch& stretch, const std::array<Camera, 2>& came
       100 * std::abs(left), left > 0 ? "longer" : "shorter");
 }
 
-/// Returns that the right camera stands to the left; nothing for cameras that do not look the same
-/// way, side by side.
+/// Returns that both cameras are one, or that the right one stands to the left; nothing for cameras
+/// that do not look the same way, side by side.
 std::string of_sides(const Camera& right) {
+  constexpr double kOnePlace = 0.002;  // metres
   constexpr double kSideways = 2, kTurned = 20 * std::numbers::pi / 180;
   const Eigen::Matrix3d& turn = right.camera_from_world.linear();
   const Eigen::Vector3d at = right.camera_from_world.inverse().translation();
+  if (at.norm() < kOnePlace)
+    return fmt::format(
+        "both cameras stand at one place ({:.2f} mm apart): are the left and the right pictures "
+        "the same?",
+        1000 * at.norm());
   if (-at.x() < kSideways * at.tail<2>().norm() || turn(2, 2) < std::cos(kTurned)) return {};
   return fmt::format(
       "the right camera stands {:.1f} mm to the left of the left one: are --left and --right "

@@ -35,7 +35,8 @@ bool fits_exchanged(CommonCorners view, const std::array<Lens, 2>& lenses,
                     const cv::Affine3d& right_from_left);
 
 /// Returns the faults of a board or a rig that a calibration shows, in words: squares that are
-/// longer in one direction, and cameras on exchanged sides. `flags` are those of calibrate_both().
+/// longer in one direction, and cameras on exchanged sides or at one place. `flags` are those of
+/// calibrate_both().
 std::vector<std::string> faults_of(const std::vector<CommonCorners>& views, cv::Size pictures,
                                    const std::array<Lens, 2>& lenses,
                                    const StereoCalibration& calibration, int flags);

@@ -137,11 +137,15 @@ class Matching {
   std::vector<cv::Affine3d> left_;                 ///< poses of `views_` before the left camera
 };
 
-/// Returns in which other order pictures belong together; empty if that is not known.
+/// Returns in which other order pictures belong together; empty if that is not known. Of cameras
+/// that are not synchronous, some pictures of a slow board fit their neighbours better.
 std::string other_order(const PairedViews& paired) {
   const std::optional<std::vector<int>> matches = Matching(paired).found();
   if (!matches) return {};
-  for (std::size_t i = 0; i < matches->size(); ++i) {
+  int kept = 0, moved = 0;
+  for (std::size_t i = 0; i < matches->size(); ++i)
+    if ((*matches)[i] >= 0) ++((*matches)[i] == static_cast<int>(i) ? kept : moved);
+  for (std::size_t i = 0; i < matches->size() && moved >= kept; ++i) {
     const int match = (*matches)[i];
     if (match >= 0 && match != static_cast<int>(i))
       return fmt::format(

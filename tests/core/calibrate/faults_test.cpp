@@ -72,6 +72,14 @@ TEST_F(FaultsTest, CamerasOnExchangedSidesAreNamed) {
                                      HasSubstr("are --left and --right exchanged")));
 }
 
+TEST_F(FaultsTest, OneCameraInPlaceOfTwoIsNamed) {
+  std::vector<BoardPair> given = pairs(8, 0.05);
+  for (BoardPair& pair : given) pair.corners[1] = pair.corners[0];
+  const Verdict found = verdict(given);
+  EXPECT_THAT(found.summary, StartsWith("usable: "));
+  EXPECT_THAT(found.advice[0], HasSubstr("are the left and the right pictures the same?"));
+}
+
 TEST_F(FaultsTest, FlippedPicturesOfOneCameraAreNamed) {
   expect_error(flipped(true, false), "pictures of one camera are mirrored, left and right");
   expect_error(flipped(false, true), "pictures of one camera are mirrored, top and bottom");
