@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <opencv2/core.hpp>
 #include <utility>
 
 #include "calibrate/wrong_board.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/median.hpp"
 #include "live_pairs/status_line.hpp"
 #include "tell.hpp"
 
@@ -18,15 +21,53 @@ void expect_size(const calibrate::PicturePair& pair, cv::Size& size) {
   for (const cv::Mat& picture : {pair.left, pair.right}) {
     if (size.empty()) size = picture.size();
     if (picture.size() == size) continue;
+    const bool turned = picture.size() == cv::Size(size.height, size.width);
     throw DataError(
-        fmt::format("{}: a picture has {} x {} pixels, others {} x {}; expected one size",
-                    pair.name, picture.cols, picture.rows, size.width, size.height));
+        fmt::format("{}: a picture has {} x {} pixels, others {} x {}; expected one size{}",
+                    pair.name, picture.cols, picture.rows, size.width, size.height,
+                    turned ? ": is a camera turned by 90 degrees? Turn its pictures back" : ""));
   }
 }
 
 /// Returns whether both pictures show the board.
 bool complete(const calibrate::BoardPair& pair) {
   return !pair.corners[0].ids.empty() && !pair.corners[1].ids.empty();
+}
+
+/// Returns the other layout of pictures of both views if both halves show the board in that.
+std::string better_layout(const calibrate::BoardFinder& finder, std::optional<StereoLayout> layout,
+                          const calibrate::PicturePair& pair) {
+  if (!layout) return {};
+  const bool beside = *layout == StereoLayout::side_by_side;
+  const StereoLayout other = beside ? StereoLayout::top_bottom : StereoLayout::side_by_side;
+  cv::Mat whole;
+  if (beside)
+    cv::hconcat(pair.left, pair.right, whole);
+  else
+    cv::vconcat(pair.left, pair.right, whole);
+  for (const cv::Mat& view : split_views(other, whole))
+    if (finder.find_quickly(view).ids.empty()) return {};
+  return fmt::format("the board is seen in both halves, one {} the other: give --layout {}",
+                     beside ? "above" : "beside",
+                     enum_names(other)[static_cast<std::size_t>(other)]);
+}
+
+/// Remembers a pair without the board, and what to change. Throws DataError if that is clear.
+void add_without(const calibrate::BoardFinder& finder, const calibrate::PairFiles& files,
+                 const calibrate::PicturePair& pair, bool left_has_board, FoundBoards& out) {
+  constexpr std::size_t kSure = 3;  // first pairs
+  const cv::Mat& lacking = left_has_board ? pair.right : pair.left;
+  if (out.without.empty()) out.why = calibrate::why_no_board(finder, lacking);
+  const bool open = out.pairs.empty() && out.without.size() < kSure &&
+                    (out.without.empty() || !out.advice.empty());
+  out.without.push_back(pair.name);
+  if (!open) return;
+  out.advice = better_layout(finder, files.layout, pair);
+  if (out.advice.empty()) out.advice = calibrate::better_options(finder.board(), lacking);
+  if (out.without.size() < kSure || out.advice.empty()) return;
+  throw DataError(
+      fmt::format("none of the first {} pairs shows the board in both pictures. In {}, {}", kSure,
+                  pair.name, out.advice));
 }
 
 }  // namespace
@@ -49,17 +90,18 @@ FoundBoards find_boards(const calibrate::BoardFinder& finder, const calibrate::P
     for (const calibrate::BoardCorners& corners : board.corners) seen.add(corners);
     if (finder.whole_only())
       calibrate::number_alike(board.corners[0], board.corners[1], finder.board().size);
-    if (complete(board)) {
-      out.pairs.push_back(std::move(board));
-    } else {
-      const cv::Mat& lacking = board.corners[0].ids.empty() ? pair.left : pair.right;
-      if (out.without.empty()) out.advice = calibrate::better_options(finder.board(), lacking);
-      out.without.push_back(pair.name);
-    }
     if (const std::string problem = seen.early_problem(); !problem.empty())
       throw DataError(problem);
+    const auto again = [&](const calibrate::BoardPair& one) { return same_place(one, board); };
+    if (!complete(board))
+      add_without(finder, files, pair, !board.corners[0].ids.empty(), out);
+    else if (std::ranges::any_of(out.pairs, again))
+      out.repeated.push_back(board.name);
+    else
+      out.pairs.push_back(std::move(board));
     status.show(fmt::format("{} pairs are read, {} show the board in both pictures",
-                            out.pairs.size() + out.without.size(), out.pairs.size()));
+                            out.pairs.size() + out.without.size() + out.repeated.size(),
+                            out.pairs.size() + out.repeated.size()));
   });
   return out;
 }
@@ -84,6 +126,22 @@ std::string settle_pattern(const calibrate::Board& board, FoundBoards& boards) {
                      board.marker_first ? "" : "; --pattern tells another one");
 }
 
+std::string marker_note(const calibrate::Board& board, const FoundBoards& boards) {
+  constexpr double kSame = 0.1;
+  std::vector<double> measured;
+  for (const calibrate::BoardPair& pair : boards.pairs)
+    for (const calibrate::BoardCorners& corners : pair.corners)
+      if (corners.marker > 0) measured.push_back(corners.marker);
+  if (measured.empty()) return {};
+  const double seen = upper_median(measured), given = board.marker / board.square;
+  if (std::abs(seen / given - 1) < kSame) return {};
+  return fmt::format(
+      "markers are {:.2f} of a square wide in the pictures, {:.2f} by --marker and --square; "
+      "corners "
+      "do not depend on that, but is --square right?",
+      seen, given);
+}
+
 void expect_board(const calibrate::Board& board, const FoundBoards& boards) {
   constexpr std::size_t kLeastPairs = 3;
   calibrate::SeenBoards seen(board);
@@ -91,11 +149,19 @@ void expect_board(const calibrate::Board& board, const FoundBoards& boards) {
     for (const calibrate::BoardCorners& corners : pair.corners) seen.add(corners);
   if (const std::string problem = seen.problem(); !problem.empty()) throw DataError(problem);
   if (boards.pairs.size() >= kLeastPairs) return;
-  throw DataError(fmt::format(
-      "{} of {} pairs show the board in both pictures; expected at least {}. {}",
-      boards.pairs.size(), boards.pairs.size() + boards.without.size(), kLeastPairs,
-      boards.advice.empty() ? "Are --board and its kind right, and is the whole board in view?"
-                            : "In the first one without it, " + boards.advice));
+  const std::size_t showing = boards.pairs.size() + boards.repeated.size();
+  if (showing >= kLeastPairs)
+    throw DataError(fmt::format(
+        "{} pairs show the board at {} different places; expected at least {}: move the board",
+        showing, boards.pairs.size(), kLeastPairs));
+  std::string what = "Are --board and its kind right, and is the whole board in view?";
+  if (!boards.advice.empty())
+    what = "In the first one without it, " + boards.advice;
+  else if (!boards.why.empty())
+    what = fmt::format("Of {}: {}. {}", boards.without.front(), boards.why, what);
+  throw DataError(
+      fmt::format("{} of {} pairs show the board in both pictures; expected at least {}. {}",
+                  showing, showing + boards.without.size(), kLeastPairs, what));
 }
 
 }  // namespace hypotrack::app

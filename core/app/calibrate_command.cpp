@@ -96,7 +96,8 @@ FoundBoards take_boards(const calibrate::BoardFinder& finder, const CalibrateOpt
     throw;
   }
   say_where();
-  return {std::move(taken.pairs), {}, taken.picture, taken.interrupted && folder.empty(), {}};
+  return {
+      std::move(taken.pairs), {}, {}, taken.picture, taken.interrupted && folder.empty(), {}, {}};
 }
 
 /// Reads the lenses of both cameras.
@@ -136,14 +137,17 @@ void print_pairs(const calibrate::StereoCalibration& found) {
                  pair.name, width);
     else
       fmt::print("{:{}}  {:8.3f}  {:8.3f}  {:8.3f}{}\n", pair.name, width, pair.rms[0], pair.rms[1],
-                 pair.expected, pair.dropped ? "   dropped: far worse than the others" : "");
+                 pair.expected,
+                 pair.exchanged ? "   dropped: left and right seem exchanged"
+                 : pair.dropped ? "   dropped: far worse than the others"
+                                : "");
 }
 
-void print_without(const std::vector<std::string>& names) {
+void print_some(const std::vector<std::string>& names, const char* what) {
   constexpr std::ptrdiff_t kMost = 6;
   if (names.empty()) return;
   const auto shown = std::min(kMost, std::ssize(names));
-  fmt::print("{} pairs do not show the board in both pictures: {}{}\n", names.size(),
+  fmt::print("{} pairs {}: {}{}\n", names.size(), what,
              fmt::join(names.begin(), names.begin() + shown, ", "),
              shown < std::ssize(names) ? ", ..." : "");
 }
@@ -167,7 +171,11 @@ int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common)
   const calibrate::StereoCalibration found =
       calibrate::calibrate_stereo(finder, boards.size, boards.pairs, lenses);
   print_pairs(found);
-  print_without(boards.without);
+  print_some(boards.without, "do not show the board in both pictures");
+  print_some(boards.repeated, "do not count: the board is where it is in another one");
+  if (options.board.marker)
+    if (const std::string note = marker_note(finder.board(), boards); !note.empty())
+      fmt::print("note: {}\n", note);
   if (!pattern.empty()) fmt::print("{}\n", pattern);
   print_cameras({{"left", found.cameras[0]}, {"right", found.cameras[1]}});
   const calibrate::Verdict verdict = calibrate::verdict_of(boards.pairs, found);

@@ -47,14 +47,6 @@ cv::Size parse_size(std::string_view text, std::string_view whole) {
                   whole, kLeast, kMost));
 }
 
-cv::Mat gray_of(const cv::Mat& picture, bool inverted) {
-  cv::Mat gray = picture, inverse;
-  if (picture.channels() == 3) cv::cvtColor(picture, gray, cv::COLOR_BGR2GRAY);
-  if (!inverted) return gray;
-  cv::bitwise_not(gray, inverse);
-  return inverse;
-}
-
 /// Returns corners of as many rows as columns in the order after a turn by 90 degrees.
 std::vector<cv::Point2f> quarter_turn(const std::vector<cv::Point2f>& at, int columns) {
   std::vector<cv::Point2f> out;
@@ -137,6 +129,17 @@ std::optional<bool> settle_pattern(std::span<BoardCorners* const> pictures) {
   return marker_first;
 }
 
+cv::Mat gray_of(const cv::Mat& picture, bool inverted, int widest) {
+  cv::Mat out = picture;
+  if (picture.channels() == 3) cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
+  if (widest > 0 && widest < out.cols) {
+    const double scale = static_cast<double>(widest) / out.cols;
+    cv::resize(out, out, {}, scale, scale, cv::INTER_AREA);
+  }
+  if (inverted) cv::bitwise_not(out, out);
+  return out;
+}
+
 BoardFinder::BoardFinder(const Board& board) : board_(board) {
   if (board.kind == Board::Kind::charuco) markers_ = std::make_unique<CharucoFinder>(board);
 }
@@ -154,7 +157,7 @@ BoardCorners BoardFinder::with_sigma(const cv::Mat& gray, BoardCorners corners) 
 }
 
 BoardCorners BoardFinder::chessboard(const cv::Mat& gray, bool quickly) const {
-  ChessboardCorners found = find_chessboard(gray, board_.size, quickly);
+  ChessboardCorners found = find_chessboard(gray, board_.size, quickly, slow_searches_);
   BoardCorners out;
   out.at = std::move(found.at);
   out.seen = found.seen;

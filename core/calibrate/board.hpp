@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -39,6 +40,9 @@ struct BoardCorners {
   double sigma = 0;  ///< expected standard deviation of a coordinate, in pixels; 0: unknown
   cv::Size seen;     ///< of the board in the picture, as Board has it; empty: unknown
   std::vector<PatternCorners> patterns;  ///< that are possible, of ChArUco; the first one is used
+  /// Markers lie as in the pattern that Board::marker_first rules out.
+  bool other_pattern = false;
+  double marker = 0;  ///< measured side of a marker, as a share of a square's; 0: unknown
 };
 
 /// Returns the names of the marker dictionaries.
@@ -59,6 +63,10 @@ void number_alike(const BoardCorners& left, BoardCorners& right, cv::Size board 
 /// One picture may not tell. Returns whether the top left square has a marker; nothing for boards
 /// without markers.
 std::optional<bool> settle_pattern(std::span<BoardCorners* const> pictures);
+
+/// Returns a grey copy of an 8-bit picture, at most `widest` pixels wide if that is not 0.
+/// `inverted`: white and black are exchanged.
+cv::Mat gray_of(const cv::Mat& picture, bool inverted = false, int widest = 0);
 
 class CharucoFinder;
 
@@ -88,6 +96,8 @@ class BoardFinder {
   BoardCorners with_sigma(const cv::Mat& gray, BoardCorners corners) const;
 
   Board board_;
+  /// Slow searches for a chessboard that may still fail: they rarely find what others do not.
+  mutable std::atomic<int> slow_searches_ = 3;
   std::unique_ptr<CharucoFinder> markers_;  ///< of ChArUco
 };
 

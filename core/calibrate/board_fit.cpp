@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/corner_noise.hpp"
 #include "hypotrack/back_project.hpp"
 
 namespace hypotrack::calibrate {

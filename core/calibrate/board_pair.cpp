@@ -18,9 +18,15 @@ SharedCorners shared_corners(const BoardFinder& board, const BoardPair& pair) {
   return out;
 }
 
-double expected_distance(const BoardPair& pair) {
-  const double left = pair.corners[0].sigma, right = pair.corners[1].sigma;
-  return left > 0 && right > 0 ? std::hypot(left, right) : 0;
+bool same_place(const BoardPair& one, const BoardPair& other) {
+  constexpr double kMoved = 0.3;  // pixels, root mean square
+  for (std::size_t view = 0; view < 2; ++view) {
+    const BoardCorners &a = one.corners[view], &b = other.corners[view];
+    if (a.ids != b.ids ||
+        cv::norm(a.at, b.at) > kMoved * std::sqrt(static_cast<double>(a.at.size())))
+      return false;
+  }
+  return true;
 }
 
 }  // namespace hypotrack::calibrate

@@ -27,8 +27,7 @@ constexpr std::size_t kLeastCorners = 6;  ///< that both pictures show, for a po
 /// Returns the corners that both pictures of a pair show.
 SharedCorners shared_corners(const BoardFinder& board, const BoardPair& pair);
 
-/// Returns the root mean square distance of corners as sharp as a pair's from their places, in
-/// pixels; 0: unknown.
-double expected_distance(const BoardPair& pair);
+/// Returns whether a board is at the same place in both pairs, but for noise.
+bool same_place(const BoardPair& one, const BoardPair& other);
 
 }  // namespace hypotrack::calibrate

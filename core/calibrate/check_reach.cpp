@@ -30,9 +30,9 @@ void CheckReach::add(const MatchedPoints& points) {
 }
 
 std::vector<std::string> CheckReach::blind_spots(const std::array<Camera, 2>& cameras,
-                                                 bool measured) const {
+                                                 BoardReach board) const {
   std::vector<std::string> out;
-  if (!measured)
+  if (board == BoardReach::none)
     out.push_back(fmt::format(
         "errors along the epipolar lines, so all depths, and the scale: measure a board (--board, "
         "--square), or the baseline of {:.1f} mm with a ruler",
@@ -54,11 +54,16 @@ std::vector<std::string> CheckReach::blind_spots(const std::array<Camera, 2>& ca
                         ? ""
                         : fmt::format(", as at the {}", fmt::join(coverage.empty, " and the "))));
   }
-  constexpr double kMostly = 0.7;
-  if (flat_ > kMostly * pairs_)
+  if (board != BoardReach::calibrated)
     out.emplace_back(
-        "focal lengths and distortion well: all points of a picture lie on one plane, as on a "
-        "board or a wall; take pictures of a room");
+        "centres that are some pixels off, where the cameras are turned to make up for it: give "
+        "--board, --square and ten pairs with the board, tilted");
+  constexpr double kMostly = 0.7;
+  if (board != BoardReach::calibrated && flat_ > kMostly * pairs_)
+    out.emplace_back(
+        "focal lengths and distortion well, and whether the corners of a calibration board were "
+        "taken for the right ones: all points of a picture lie on one plane, as on a board or a "
+        "wall; take pictures of a room");
   return out;
 }
 

@@ -129,21 +129,26 @@ SeenChessboard largest_chessboard(const cv::Mat& gray) {
   return {grid.size, grid.at, is_whole(grid, gray.size())};
 }
 
-ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quickly) {
+ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quickly,
+                                  std::atomic<int>& slow_searches) {
   double scale = std::min(1.0, static_cast<double>(kSmallWidth) / gray.cols);
   const cv::Mat small = resized(gray, scale);
   ChessboardCorners out;
-  if (quickly) out.at = corners_of_size(small, size, kFast);
+  out.at = corners_of_size(small, size, kFast);
   SeenChessboard seen;
-  if (out.at.empty()) seen = largest_chessboard(small);
+  if (out.at.empty() || !quickly) seen = largest_chessboard(small);
+  if (out.at.empty()) out.at = sharp_of_size(small, seen, size);
   // A slow search for squares in place of corners finds nothing. A larger board may have a row too
   // many: edges around a board look like corners at times.
   const cv::Size squares = seen.size + cv::Size(1, 1);
   const bool counted = squares == size || squares == cv::Size(size.height, size.width);
   const bool other =
       seen.whole && (counted || (!is_part(seen.size, size) && !is_part(size, seen.size)));
-  if (!quickly && !other) out.at = corners_of_size(small, size, kSlow);
-  if (out.at.empty()) out.at = sharp_of_size(small, seen, size);
+  if (other && !quickly) out.at.clear();
+  if (out.at.empty() && !quickly && !other && slow_searches > 0) {
+    out.at = corners_of_size(small, size, kSlow);
+    if (out.at.empty()) --slow_searches;
+  }
   if (out.at.empty() && !quickly && !other && scale < 1) {
     scale = 1;
     seen = largest_chessboard(gray);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -22,8 +23,9 @@ struct ChessboardCorners {
 };
 
 /// Finds a whole chessboard of a size in a grey picture, in a copy of 640 pixels of width first.
-/// The search ends after a fixed number of attempts. `quickly`: with the fast ones only, and `seen`
-/// is known only where the board is not found.
-ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quickly);
+/// `quickly`: with the fast searches only, and `seen` is known only where the board is not found.
+/// Otherwise, each slow search that fails takes one from `slow_searches`; at 0 there are none.
+ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quickly,
+                                  std::atomic<int>& slow_searches);
 
 }  // namespace hypotrack::calibrate

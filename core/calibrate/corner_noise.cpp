@@ -95,4 +95,9 @@ double corner_sigma(const EdgeLook& edges) {
   return std::hypot(std::max(kLeast, kOfBlur * edges.blur), noise);
 }
 
+double expected_distance(const BoardPair& pair) {
+  const double left = pair.corners[0].sigma, right = pair.corners[1].sigma;
+  return left > 0 && right > 0 ? std::hypot(left, right) : 0;
+}
+
 }  // namespace hypotrack::calibrate

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board_pair.hpp"
 
 namespace hypotrack::calibrate {
 
@@ -19,5 +19,9 @@ EdgeLook edge_look(const cv::Mat& gray, const BoardCorners& corners, int columns
 
 /// Returns the standard deviation of a corner's coordinate, in pixels, that edges allow.
 double corner_sigma(const EdgeLook& edges);
+
+/// Returns the root mean square distance of corners as sharp as a pair's from their places, in
+/// pixels; 0: unknown.
+double expected_distance(const BoardPair& pair);
 
 }  // namespace hypotrack::calibrate

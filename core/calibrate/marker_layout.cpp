@@ -41,7 +41,7 @@ int MarkerLayout::markers_in(int rows) const {
   return marker_first ? (squares + 1) / 2 : squares / 2;
 }
 
-std::vector<MarkerStep> marker_steps(const Markers& markers) {
+MarkerSteps marker_steps(const Markers& markers) {
   constexpr float kFarthest = 4;  // sides of a marker: more is seen with too little accuracy
   const std::size_t count = markers.ids.size();
   std::vector<cv::Point2f> centres;
@@ -55,15 +55,15 @@ std::vector<MarkerStep> marker_steps(const Markers& markers) {
       if (j != i) least = std::min(least, reach_of(views[i][j]));
     if (least < kFarthest) nearest.push_back(least);
   }
-  std::vector<MarkerStep> out;
+  MarkerSteps out;
   if (nearest.empty()) return out;
-  const auto square = static_cast<float>(upper_median(nearest));
+  out.square = upper_median(nearest);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) {
-      const cv::Point2f step = views[i][j] / square;
+      const cv::Point2f step = views[i][j] / out.square;
       const cv::Point rounded(cvRound(step.x), cvRound(step.y));
       if (i != j && std::max(std::abs(rounded.x), std::abs(rounded.y)) == 1)
-        out.push_back({markers.ids[i], markers.ids[j], rounded});
+        out.all.push_back({markers.ids[i], markers.ids[j], rounded});
     }
   return out;
 }

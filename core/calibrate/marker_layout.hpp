@@ -30,9 +30,15 @@ struct MarkerStep {
   cv::Point squares;
 };
 
+/// Steps between neighbouring markers, and the side of a square.
+struct MarkerSteps {
+  std::vector<MarkerStep> all;
+  double square = 0;  ///< in sides of a marker; 0 without neighbours
+};
+
 /// Measures the steps between neighbouring markers, whatever the board. Lenses bend steps of so
 /// few squares too little to matter.
-std::vector<MarkerStep> marker_steps(const Markers& markers);
+MarkerSteps marker_steps(const Markers& markers);
 
 /// Returns the share of steps that a layout explains; 0 without steps.
 double agreement(const MarkerLayout& layout, std::span<const MarkerStep> steps);

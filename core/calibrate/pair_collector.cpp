@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "calibrate/missing_board.hpp"
 #include "calibrate/wrong_board.hpp"
 
 namespace hypotrack::calibrate {

@@ -20,12 +20,65 @@
 namespace hypotrack::calibrate {
 namespace {
 
+/// Compares names as people sort them: `left9` is before `left10`.
+bool before(const std::string& a, const std::string& b) {
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (!digit(a[i]) || !digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const auto number = [&](const std::string& text, std::size_t& at) {
+      const std::size_t from = std::min(text.find_first_not_of('0', at), text.size());
+      for (at = from; at < text.size() && digit(text[at]);) ++at;
+      return std::string_view(text).substr(from, at - from);
+    };
+    const std::string_view x = number(a, i), y = number(b, j);
+    if (x.size() != y.size()) return x.size() < y.size();
+    if (x != y) return x < y;
+  }
+  return std::pair(a.size() - i, a) < std::pair(b.size() - j, b);
+}
+
+/// Returns the last number in a file's name as it is written, without zeros before it.
+std::string number_of(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
+  const std::size_t last = name.find_last_of("0123456789");
+  if (last == std::string::npos) return {};
+  const std::size_t other = name.find_last_not_of("0123456789", last);
+  const std::string digits = name.substr(other + 1, last - other);  // npos + 1 is 0
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size() - 1));
+}
+
+/// Returns that files are not paired by the numbers in their names although both sides have these;
+/// empty otherwise.
+std::string order_note(const std::vector<std::string>& left,
+                       const std::vector<std::string>& right) {
+  std::vector<std::string> numbers;
+  for (const std::string& file : right) numbers.push_back(number_of(file));
+  for (std::size_t i = 0; i < left.size() && i < right.size(); ++i) {
+    const std::string number = number_of(left[i]);
+    const auto same = std::ranges::find(numbers, number);
+    if (number.empty() || numbers[i] == number || same == numbers.end()) continue;
+    const auto name = [](const std::string& file) {
+      return std::filesystem::path(file).filename().string();
+    };
+    return fmt::format("{} is paired with {}, not with {}: files pair in the order of their names",
+                       name(left[i]), name(right[i]),
+                       name(right[static_cast<std::size_t>(same - numbers.begin())]));
+  }
+  return {};
+}
+
 std::vector<std::string> files_of(const std::string& pattern) {
   glob_t found{};
   const int result = glob(pattern.c_str(), 0, nullptr, &found);
   std::vector<std::string> out;
   if (result == 0) out.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
   globfree(&found);
+  std::ranges::sort(out, before);
   if (out.empty()) {
     throw DataError(fmt::format(
         "{}: no such picture; expected a file, or a pattern in quotes, as 'left*.jpg'", pattern));
@@ -80,6 +133,7 @@ void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePa
   if (first.size() == 1 && is_video(first[0]))
     return read_videos(files.layout ? first : std::vector{first[0], second[0]}, files.step, take,
                        tell);
+  if (const std::string note = order_note(first, second); !note.empty()) tell(note);
   for (std::size_t i = 0; i < first.size(); ++i)
     take({std::filesystem::path(first[i]).filename().string(), read_picture(first[i], files.bits),
           read_picture(second[i], files.bits)});

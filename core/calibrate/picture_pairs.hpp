@@ -17,7 +17,7 @@ struct PicturePair {
   cv::Mat left, right;
 };
 
-/// Where pairs are: files with wildcards, each side sorted by name, or videos.
+/// Where pairs are: files with wildcards, each side sorted by name and number, or videos.
 struct PairFiles {
   std::string left, right;               ///< no right: with `layout`, left has both views
   int step = 1;                          ///< every `step`-th frame of videos counts

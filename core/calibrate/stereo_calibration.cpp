@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
-#include <opencv2/core/affine.hpp>
 #include <utility>
 
+#include "calibrate/corner_noise.hpp"
+#include "calibrate/faults.hpp"
+#include "calibrate/solve_stereo.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
 
@@ -16,165 +18,40 @@ namespace {
 
 constexpr std::size_t kLeastPairs = 3;
 
-/// Corners of a pair, which has an index among the given ones.
-struct CommonCorners : SharedCorners {
-  std::size_t pair = 0;
-};
-
-/// One camera's matrix and distortion.
-struct Lens {
-  cv::Mat matrix, distortion;
-};
-
-std::vector<CommonCorners> common_corners(const BoardFinder& board,
-                                          const std::vector<BoardPair>& pairs) {
-  std::vector<CommonCorners> out;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    SharedCorners shared = shared_corners(board, pairs[i]);
-    if (shared.board.size() >= kLeastCorners) out.push_back({std::move(shared), i});
-  }
-  return out;
-}
-
-Lens lens_of(const Camera& camera) {
-  return {(cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1),
-          cv::Mat(camera.distortion, true).reshape(1, 1)};
-}
-
-/// A calibrated camera.
-struct OneCamera {
-  Lens lens;
-  double focal_sigma = 0;   ///< standard deviation of the focal length as a share of it
-  bool tangential = false;  ///< the tangential distortion differs from 0
-};
-
-OneCamera calibrate_one(const std::vector<CommonCorners>& views, std::size_t view,
-                        cv::Size pictures, int flags) {
-  constexpr double kSignificant = 3;  // standard deviations
-  std::vector<std::vector<cv::Point3f>> board;
-  std::vector<std::vector<cv::Point2f>> at;
-  for (const CommonCorners& one : views) {
-    board.push_back(one.board);
-    at.push_back(one.at[view]);
-  }
-  OneCamera out;
-  std::vector<cv::Mat> turns, places;
-  cv::Mat sigmas, pose_sigmas, errors;
-  cv::calibrateCamera(board, at, pictures, out.lens.matrix, out.lens.distortion, turns, places,
-                      sigmas, pose_sigmas, errors, flags);
-  out.focal_sigma = sigmas.at<double>(0) / out.lens.matrix.at<double>(0, 0);
-  for (int i = 2; i < 4; ++i)  // after four of the matrix and two radial ones
-    out.tangential = out.tangential || std::abs(out.lens.distortion.at<double>(i)) >
-                                           kSignificant * sigmas.at<double>(4 + i);
-  return out;
-}
-
-/// Calibrates both cameras. Where neither shows tangential distortion, none is assumed: it trades
-/// off against the centre, which is known twice as well without it. Returns OpenCV's flag of that.
-int calibrate_lenses(const std::vector<CommonCorners>& views, cv::Size pictures,
-                     std::array<Lens, 2>& lenses, std::array<double, 2>& focal_sigma) {
-  const auto calibrate = [&](int flags) {
-    bool tangential = false;
-    for (std::size_t i = 0; i < 2; ++i) {
-      const OneCamera one = calibrate_one(views, i, pictures, flags);
-      lenses[i] = one.lens;
-      focal_sigma[i] = one.focal_sigma;
-      tangential = tangential || one.tangential;
-    }
-    return tangential;
-  };
-  if (calibrate(0)) return 0;
-  calibrate(cv::CALIB_ZERO_TANGENT_DIST);
-  return cv::CALIB_ZERO_TANGENT_DIST;
-}
-
-/// The right camera's pose and the residuals of each view.
-struct Pair {
-  cv::Mat rotation, translation, residuals;
-  double rms = 0;
-};
-
-Pair calibrate_both(const std::vector<CommonCorners>& views, cv::Size pictures,
-                    std::array<Lens, 2>& lenses, int flags) {
-  std::vector<std::vector<cv::Point3f>> board;
-  std::array<std::vector<std::vector<cv::Point2f>>, 2> at;
-  for (const CommonCorners& one : views) {
-    board.push_back(one.board);
-    for (std::size_t i = 0; i < 2; ++i) at[i].push_back(one.at[i]);
-  }
-  Pair out;
-  cv::Mat essential, fundamental;
-  out.rms = cv::stereoCalibrate(board, at[0], at[1], lenses[0].matrix, lenses[0].distortion,
-                                lenses[1].matrix, lenses[1].distortion, pictures, out.rotation,
-                                out.translation, essential, fundamental, out.residuals, flags,
-                                {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-7});
-  return out;
-}
-
-cv::Affine3d pose_of(const CommonCorners& view, std::size_t camera, const Lens& lens) {
-  cv::Vec3d turn, place;
-  cv::solvePnP(view.board, view.at[camera], lens.matrix, lens.distortion, turn, place);
-  return cv::Affine3d(turn, place);
-}
-
-/// Returns the root mean square distance of a picture's corners from those of a board in a pose.
-double distance_of(const CommonCorners& view, std::size_t camera, const Lens& lens,
-                   const cv::Affine3d& pose) {
-  std::vector<cv::Point2f> at;
-  cv::projectPoints(view.board, pose.rvec(), pose.translation(), lens.matrix, lens.distortion, at);
-  return cv::norm(at, view.at[camera]) / std::sqrt(static_cast<double>(at.size()));
-}
-
 /// Moves views whose cameras stand to each other as in no other view out of `views`: pictures of
-/// different moments. One would spoil the calibration of both cameras. The reference is the view
-/// that most agree with (least median of squares: Rousseeuw 1984).
+/// different moments. One would spoil the calibration of both cameras.
 void drop_mismatched(std::vector<CommonCorners>& views, const std::array<Lens, 2>& lenses,
                      std::vector<PairResidual>& pairs) {
-  constexpr double kFar = 5;    // medians
-  constexpr double kLeast = 5;  // pixels
-  std::vector<cv::Affine3d> left, right_from_left;
-  for (const CommonCorners& view : views) {
-    left.push_back(pose_of(view, 0, lenses[0]));
-    right_from_left.push_back(pose_of(view, 1, lenses[1]) * left.back().inv());
-  }
-  std::vector<double> best;
-  for (const cv::Affine3d& reference : right_from_left) {
-    std::vector<double> distances;
-    for (std::size_t i = 0; i < views.size(); ++i)
-      distances.push_back(distance_of(views[i], 1, lenses[1], reference * left[i]));
-    if (best.empty() || upper_median(distances) < upper_median(best)) best = std::move(distances);
-  }
-  const double limit = std::max(kLeast, kFar * upper_median(best));
-  const auto mismatched = std::ranges::count_if(best, [&](double d) { return !(d <= limit); });
-  if (views.size() - static_cast<std::size_t>(mismatched) < kLeastPairs) return;
+  constexpr double kFar = 5;  // medians
+  const CommonPose common = common_pose(views, lenses);
+  const double limit = std::max(kMismatch, kFar * upper_median(common.distances));
+  const auto fits = [&](std::size_t i) { return common.distances[i] <= limit; };
   std::vector<CommonCorners> kept;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    if (fits(i)) kept.push_back(views[i]);
+  if (kept.size() < kLeastPairs) return;
   for (std::size_t i = 0; i < views.size(); ++i) {
     PairResidual& pair = pairs[views[i].pair];
-    pair.dropped = !(best[i] <= limit);
+    pair.dropped = !fits(i);
+    pair.exchanged = pair.dropped && fits_exchanged(views[i], lenses, common.right_from_left);
     pair.too_few = false;
-    pair.rms = {distance_of(views[i], 0, lenses[0], left[i]), best[i]};
-    if (!pair.dropped) kept.push_back(std::move(views[i]));
+    pair.rms = {distance_of(views[i], 0, lenses[0], common.boards[i]), common.distances[i]};
   }
   views = std::move(kept);
 }
 
-/// Returns the angle between a board and the plane of a picture.
-double tilt_of(const CommonCorners& view, const Lens& lens) {
-  return std::acos(std::min(1.0, std::abs(pose_of(view, 0, lens).rotation()(2, 2))));
-}
-
-Camera camera_of(const Lens& lens, cv::Size pictures) {
-  Camera out;
-  out.width = pictures.width;
-  out.height = pictures.height;
-  out.fx = lens.matrix.at<double>(0, 0);
-  out.fy = lens.matrix.at<double>(1, 1);
-  out.cx = lens.matrix.at<double>(0, 2);
-  out.cy = lens.matrix.at<double>(1, 2);
-  out.distortion_model = lens.distortion.empty() ? DistortionModel::none : DistortionModel::brown;
-  for (int i = 0; i < static_cast<int>(lens.distortion.total()); ++i)
-    out.distortion.push_back(lens.distortion.at<double>(i));
-  return out;
+/// Sets the angles between boards and the plane of a picture, and the largest one between boards.
+void measure_tilts(const std::vector<CommonCorners>& views, const Lens& lens,
+                   StereoCalibration& out) {
+  const auto angle = [](double cosine) { return std::acos(std::min(1.0, std::abs(cosine))); };
+  std::vector<cv::Vec3d> normals;
+  for (const CommonCorners& view : views) {
+    const cv::Matx33d turn = pose_of(view, 0, lens).rotation();
+    normals.emplace_back(turn(0, 2), turn(1, 2), turn(2, 2));
+    out.pairs[view.pair].tilt = angle(turn(2, 2));
+    for (const cv::Vec3d& other : normals)
+      out.turn = std::max(out.turn, angle(other.dot(normals.back())));
+  }
 }
 
 /// Moves views whose residual is far above the median out of `views`. Returns whether there were
@@ -239,24 +116,25 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
   StereoCalibration out;
   for (const BoardPair& pair : pairs) out.pairs.push_back({.name = pair.name});
   std::array<Lens, 2> lenses;
-  Pair found;
+  StereoSolution found;
+  int flags = given ? cv::CALIB_FIX_INTRINSIC : cv::CALIB_USE_INTRINSIC_GUESS;
   do {
-    int flags = cv::CALIB_FIX_INTRINSIC;
     for (std::size_t i = 0; i < 2 && given; ++i) lenses[i] = lens_of((*given)[i]);
-    if (!given)
-      flags = cv::CALIB_USE_INTRINSIC_GUESS |
-              calibrate_lenses(views, pictures, lenses, out.focal_sigma);
-    if (found.rotation.empty()) drop_mismatched(views, lenses, out.pairs);
+    if (!given) calibrate_lenses(views, pictures, lenses, out.focal_sigma);
+    if (found.rotation.empty()) {
+      expect_pairs({&board, &pairs, views, lenses, given.has_value(), pictures});
+      drop_mismatched(views, lenses, out.pairs);
+    }
     found = calibrate_both(views, pictures, lenses, flags);
     for (std::size_t i = 0; i < views.size(); ++i) {
       PairResidual& pair = out.pairs[views[i].pair];
       for (int k = 0; k < 2; ++k)
         pair.rms[static_cast<std::size_t>(k)] = found.residuals.at<double>(static_cast<int>(i), k);
-      pair.tilt = tilt_of(views[i], lenses[0]);
       pair.too_few = false;
     }
   } while (drop_outliers(views, found.residuals, out.pairs));
   out.rms = found.rms;
+  measure_tilts(views, lenses[0], out);
   weigh_residuals(pairs, views, given.has_value(), out);
   for (std::size_t i = 0; i < 2; ++i) out.cameras[i] = camera_of(lenses[i], pictures);
   Eigen::Isometry3d& pose = out.cameras[1].camera_from_world;
@@ -265,7 +143,8 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
     for (int column = 0; column < 3; ++column)
       pose.linear()(row, column) = found.rotation.at<double>(row, column);
   }
-  for (const Camera& camera : out.cameras) validate(camera, "these pairs do not tell the cameras");
+  expect_cameras(out.cameras);
+  out.faults = faults_of(views, pictures, lenses, out, flags);
   return out;
 }
 

@@ -22,6 +22,7 @@ struct PairResidual {
   double tilt = 0;              ///< of the board to the left picture, radians
   bool too_few = true;          ///< corners that both pictures show
   bool dropped = false;         ///< an outlier
+  bool exchanged = false;       ///< dropped, and the left picture fits as the right one
   /// Returns whether the calibration comes from this pair, too.
   bool counts() const { return !too_few && !dropped; }
 };
@@ -37,12 +38,14 @@ struct StereoCalibration {
   std::vector<PairResidual> pairs;
   /// Standard deviations of the focal lengths, as shares of them; 0 if lenses were given.
   std::array<double, 2> focal_sigma{};
+  double turn = 0;  ///< largest angle between the boards of two pairs that count, radians
+  std::vector<std::string> faults;  ///< probable ones of the board or the pairs, in words
 };
 
 /// Calibrates two cameras from pictures of a board: Zhang's method (2000) as OpenCV has it, for
 /// each camera and then for both. A pair that is far worse than most is dropped, and all is
 /// calibrated again. With `lenses`, only the pose of the right camera is found. Throws DataError if
-/// fewer than three pairs show the board.
+/// fewer than three pairs show the board, or if pairs do not belong together.
 StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
                                    const std::vector<BoardPair>& pairs,
                                    const std::optional<std::array<Camera, 2>>& lenses = {});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "calibrate/charuco.hpp"
 #include "calibrate/chessboard.hpp"
@@ -45,14 +46,24 @@ std::string advice(const Board& given, cv::Size seen) {
                      seen + cv::Size(1, 1) == given.size ? kSquaresCounted : "");
 }
 
-cv::Mat small_gray_of(const cv::Mat& picture, bool inverted) {
-  constexpr double kWidth = 1280;
-  cv::Mat out = picture;
-  if (picture.channels() == 3) cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
-  const double scale = std::min(1.0, kWidth / out.cols);
-  cv::resize(out, out, {}, scale, scale, cv::INTER_AREA);
-  if (inverted) cv::bitwise_not(out, out);
-  return out;
+/// Returns the value that a share of a picture's pixels is below.
+double quantile(const cv::Mat& picture, double share) {
+  cv::Mat values;
+  picture.convertTo(values, CV_32F);
+  std::vector<float> all(values.begin<float>(), values.end<float>());
+  const auto at = all.begin() + static_cast<std::ptrdiff_t>(share * double(all.size() - 1));
+  std::ranges::nth_element(all, at);
+  return *at;
+}
+
+/// Returns the slope of the steepest edges, in grey levels per pixel.
+double steepest(const cv::Mat& gray) {
+  constexpr double kSobel = 8;  // sum of the weights of one side, twice
+  cv::Mat dx, dy, slope;
+  cv::Sobel(gray, dx, CV_32F, 1, 0, 3, 1 / kSobel);
+  cv::Sobel(gray, dy, CV_32F, 0, 1, 3, 1 / kSobel);
+  cv::magnitude(dx, dy, slope);
+  return quantile(slope, 0.995);
 }
 
 }  // namespace
@@ -68,6 +79,7 @@ std::string other_size(const Board& given, cv::Size seen) {
 void SeenBoards::add(const BoardCorners& picture) {
   ++pictures_;
   found_ += picture.ids.empty() ? 0 : 1;
+  other_patterns_ += picture.other_pattern ? 1 : 0;
   if (picture.seen.empty()) return;
   cv::Size size = picture.seen;
   if (same_size(given_, size)) size = given_.size;
@@ -77,10 +89,20 @@ void SeenBoards::add(const BoardCorners& picture) {
 
 std::string SeenBoards::early_problem() const {
   constexpr int kSure = 6;
-  return found_ > 0 ? std::string() : problem(kSure);
+  return found_ > 0 ? pattern_problem(kSure) : problem(kSure);
+}
+
+std::string SeenBoards::pattern_problem(int least) const {
+  if (other_patterns_ < least || 2 * other_patterns_ <= pictures_) return {};
+  return fmt::format(
+      "--pattern is {}, but the markers of {} of {} pictures lie in the other pattern: give "
+      "--pattern {}, or leave it out",
+      *given_.marker_first ? "marker" : "black", other_patterns_, pictures_,
+      *given_.marker_first ? "black" : "marker");
 }
 
 std::string SeenBoards::problem(int least) const {
+  if (const std::string pattern = pattern_problem(least); !pattern.empty()) return pattern;
   int all = 0, most = 0;
   cv::Size size;
   std::map<int, std::pair<int, int>> columns;  // rows and pictures of ChArUco boards
@@ -106,30 +128,54 @@ std::string SeenBoards::problem(int least) const {
 
 std::string better_options(const Board& given, const cv::Mat& picture) {
   constexpr std::size_t kLeastMarkers = 4;
-  if (is_charuco(given) &&
-      CharucoFinder(given).markers(small_gray_of(picture, given.inverted)) >= kLeastMarkers)
-    return {};
+  constexpr int kWidth = 1280;
+  const auto markers_of = [](Board board, const std::string& dictionary, const cv::Mat& gray) {
+    board.dictionary = dictionary;
+    return CharucoFinder(board).markers(gray);
+  };
+  const cv::Mat as_given = gray_of(picture, given.inverted, kWidth);
+  if (is_charuco(given)) {
+    if (markers_of(given, given.dictionary, as_given) >= kLeastMarkers) return {};
+    cv::Mat mirror;
+    cv::flip(as_given, mirror, 1);
+    if (markers_of(given, given.dictionary, mirror) >= kLeastMarkers)
+      return "the markers are mirrored: turn mirroring off, or flip the pictures";
+  }
   for (const bool inverted : {given.inverted, !given.inverted}) {
-    const cv::Mat gray = small_gray_of(picture, inverted);
+    const cv::Mat gray = gray_of(picture, inverted, kWidth);
     const std::string invert = inverted == given.inverted ? ""
                                : inverted                 ? ", with --inverted"
                                                           : ", without --inverted";
+    std::pair<std::size_t, std::string> most;
+    for (const std::string& name : dictionary_names())
+      if (const std::size_t markers = markers_of(given, name, gray); 4 * markers > 5 * most.first)
+        most = {markers, name};  // large dictionaries contain small ones, and find some by chance
+    if (most.first >= kLeastMarkers)
+      return fmt::format("{} markers of the dictionary {} are seen: give {}--dictionary {}{}",
+                         most.first, most.second,
+                         is_charuco(given) ? "" : "--board charuco:COLUMNSxROWS ", most.second,
+                         invert);
     const SeenChessboard chess = largest_chessboard(gray);
     if (chess.whole && (is_charuco(given) || !invert.empty()))
       return fmt::format("a chessboard of {}x{} inner corners is seen: give --board {}x{}{}",
                          chess.size.width, chess.size.height, chess.size.width, chess.size.height,
                          invert);
-    for (const std::string& name : dictionary_names()) {
-      Board board = given;
-      board.dictionary = name;
-      const std::size_t markers = CharucoFinder(board).markers(gray);
-      if (markers >= kLeastMarkers)
-        return fmt::format("{} markers of the dictionary {} are seen: give {}--dictionary {}{}",
-                           markers, name, is_charuco(given) ? "" : "--board charuco:COLUMNSxROWS ",
-                           name, invert);
-    }
   }
   return {};
+}
+
+std::string why_no_board(const BoardFinder& finder, const cv::Mat& picture) {
+  constexpr int kWidth = 320;
+  constexpr double kDark = 60, kBright = 230, kFlat = 25;  // grey levels
+  constexpr double kBlurred = 0.12;                        // slope as a share of the contrast
+  const cv::Mat gray = gray_of(picture, false, kWidth);
+  const double black = quantile(gray, 0.02), white = quantile(gray, 0.98);
+  if (white < kDark) return "too dark";
+  if (black > kBright) return "too bright";
+  if (white - black < kFlat) return "nothing is seen: is the lens covered?";
+  if (steepest(gray) < kBlurred * (white - black)) return "blurred";
+  if (finder.sees_part(picture)) return "only a part of the board is seen";
+  return "no board is seen";
 }
 
 }  // namespace hypotrack::calibrate

@@ -54,8 +54,8 @@ struct CalibrationSettings {
     v("cameras", cameras,
       {.help = "which cameras of the file, by name, first and second view (default: all)"});
     v("units", units,
-      {.help = "unit of the translations in the file: m, cm or mm (default: what the file says "
-               "under `units`, otherwise m, for a ZED mm, for depthai cm)"});
+      {.help = "unit of the translations in the file: m, cm or mm (default: `units` of the file, "
+               "else m; mm for a ZED, cm for depthai)"});
     v("scale", scale,
       {.help = "further factor on the translations: the side of a checkerboard square, in `units`, "
                "where the calibration was made in squares",

@@ -44,9 +44,8 @@ struct ImageSequenceParams {
       {.help = "depth along the axis of the first camera: 16-bit PNG, 0 is not measured"});
     v("right_depth", right_depth, {.help = "depth of the second camera"});
     v("layout", layout,
-      {.help = "how the images of left, left_mask and left_depth hold both views, instead of those "
-               "of right: the first camera in the left half (side_by_side) or the upper half "
-               "(top_bottom)"});
+      {.help = "left, left_mask and left_depth hold both views, and there is no right; the first "
+               "camera is in the left half (side_by_side) or the upper half (top_bottom)"});
     v("depth_units_mm", depth_unit,
       {.help = "depth that one unit of left_depth and right_depth means",
        .min = 1e-4,

@@ -127,8 +127,10 @@ TEST(Board, SquareBoardsAreNumberedAlikeAfterAQuarterOfATurn) {
 
 /// A ChArUco board in one of both patterns, drawn with 60 pixels a square.
 struct DrawnBoard {
-  DrawnBoard(const char* size, bool marker_first) : board(parse_board(size, "30mm")) {
+  DrawnBoard(const char* size, bool marker_first, double marker = 0.75)
+      : board(parse_board(size, "30mm")) {
     Board of = board;
+    of.marker = marker * of.square;
     of.marker_first = marker_first;
     cv::GaussianBlur(CharucoFinder(of).drawn(kSquare, kMargin), picture, {}, 0.8);
   }
@@ -168,6 +170,44 @@ TEST(Board, APatternThatIsGivenIsTheOnlyOne) {
   EXPECT_EQ(BoardFinder(drawn.board).find(drawn.picture).ids.size(), 15u);
   drawn.board.marker_first = false;
   EXPECT_TRUE(BoardFinder(drawn.board).find(drawn.picture).ids.empty());
+}
+
+TEST(Board, APatternThatPicturesContradictIsNamed) {
+  for (const char* size : {"charuco:6x4", "charuco:7x4"})
+    for (const bool marker_first : {false, true}) {
+      DrawnBoard drawn(size, marker_first);
+      drawn.board.marker_first = !marker_first;
+      const BoardCorners found = BoardFinder(drawn.board).find(drawn.picture);
+      EXPECT_TRUE(found.ids.empty());
+      SeenBoards seen(drawn.board);
+      for (int i = 0; i < 6; ++i) seen.add(found);
+      EXPECT_THAT(seen.early_problem(),
+                  HasSubstr(std::string("the other pattern: give --pattern ") +
+                            (marker_first ? "marker" : "black")));
+    }
+}
+
+TEST(Board, CornersDoNotDependOnTheSizeOfMarkers) {
+  for (const double share : {0.55, 0.75, 0.8}) {
+    DrawnBoard drawn("charuco:6x4", true, share);
+    const BoardCorners found = BoardFinder(drawn.board).find(drawn.picture);
+    EXPECT_EQ(found.ids.size(), 15u) << share;
+    EXPECT_LT(drawn.largest_distance(found), 0.1) << share;
+    EXPECT_NEAR(found.marker, share, 0.03);
+  }
+}
+
+TEST(Board, MirroredMarkersAreNamed) {
+  const DrawnBoard drawn("charuco:6x4", false);
+  cv::Mat mirror;
+  cv::flip(drawn.picture, mirror, 1);
+  EXPECT_TRUE(BoardFinder(drawn.board).find(mirror).ids.empty());
+  EXPECT_THAT(better_options(drawn.board, mirror), HasSubstr("markers are mirrored"));
+}
+
+TEST(Board, AChessboardInPlaceOfMarkersIsNamed) {
+  EXPECT_THAT(better_options(parse_board("charuco:10x7", "25mm"), chessboard({9, 6}, 30)),
+              HasSubstr("a chessboard of "));
 }
 
 TEST(Board, PicturesThatLeaveThePatternOpenFollowTheOthers) {

@@ -56,6 +56,27 @@ TEST(PicturePairsOfVideos, AreOfTheSameTime) {
   EXPECT_THAT(names, ElementsAre("frame 0", "frame 4", "frame 8"));
 }
 
+TEST(PicturePairNames, AreSortedByTheirNumbers) {
+  const test::TemporaryDirectory folder;
+  for (const char* name : {"left_2", "left_10", "left_1", "right_01", "right_02", "right_10"})
+    write_image((folder.path() / (std::string(name) + ".png")).string(), cv::Mat1b(8, 8, uchar{9}));
+  std::vector<std::string> names, notes;
+  const auto read = [&](const char* left) {
+    names.clear(), notes.clear();
+    read_pairs(
+        {(folder.path() / left).string(), (folder.path() / "right_*.png").string()},
+        [&](const PicturePair& pair) { names.push_back(pair.name); },
+        [&](const std::string& note) { notes.push_back(note); });
+  };
+  read("left_*.png");
+  EXPECT_THAT(names, ElementsAre("left_1.png", "left_2.png", "left_10.png"));
+  EXPECT_THAT(notes, testing::IsEmpty());
+  std::filesystem::rename(folder.path() / "left_1.png", folder.path() / "left_3.png");
+  read("left_*.png");
+  EXPECT_THAT(notes, ElementsAre("left_2.png is paired with right_01.png, not with right_02.png: "
+                                 "files pair in the order of their names"));
+}
+
 TEST(PicturePairsOfVideos, AreTurnedAsPlayersDo) {
   const test::TemporaryDirectory folder;
   const std::string file = folder.path() / "portrait.mov";

@@ -2,14 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include <random>
-
 #include "calibrate/board_fit.hpp"
 #include "calibrate/check_reach.hpp"
 #include "calibrate/coverage.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "calibrate/verdict.hpp"
 #include "hypotrack/error.hpp"
+#include "stereo_calibration_fixture.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::calibrate {
@@ -17,58 +16,6 @@ namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-/// Two cameras, and pairs of a board in front of them.
-class StereoCalibrationTest : public testing::Test {
- protected:
-  StereoCalibrationTest() {
-    cameras_[0] = {640, 480, 530, 531, 325, 238, DistortionModel::brown, {-0.25, 0.1, 0.001, 0, 0},
-                   {}};
-    cameras_[0].camera_from_world.setIdentity();
-    cameras_[1] = cameras_[0];
-    cameras_[1].fx = 545;
-    cameras_[1].camera_from_world.linear() =
-        Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).matrix();
-    cameras_[1].camera_from_world.translation() << -0.09, 0.002, 0.001;
-  }
-
-  /// Returns pairs in which corners are off by noise of `sigma` pixels.
-  std::vector<BoardPair> pairs(int count, double sigma, double tilt = 0.5) {
-    std::vector<BoardPair> out;
-    while (static_cast<int>(out.size()) < count) {
-      Eigen::Isometry3d pose(Eigen::AngleAxisd(tilt * normal_(random_), Eigen::Vector3d::UnitX()) *
-                             Eigen::AngleAxisd(tilt * normal_(random_), Eigen::Vector3d::UnitY()));
-      pose.pretranslate(Eigen::Vector3d(-0.1 + 0.08 * normal_(random_),
-                                        -0.06 + 0.06 * normal_(random_),
-                                        0.45 + 0.05 * normal_(random_)));
-      BoardPair pair{"pair " + std::to_string(out.size()), {}};
-      bool visible = true;
-      for (std::size_t view = 0; view < 2; ++view)
-        for (int id = 0; id < 54; ++id) {
-          const cv::Point3f place = finder_.place(id);
-          const Eigen::Vector2d at =
-              project(cameras_[view], pose * Eigen::Vector3d(place.x, place.y, place.z));
-          visible = visible && at.x() > 0 && at.y() > 0 && at.x() < 640 && at.y() < 480;
-          pair.corners[view].sigma = sharpness_;
-          pair.corners[view].ids.push_back(id);
-          pair.corners[view].at.emplace_back(static_cast<float>(at.x() + sigma * normal_(random_)),
-                                             static_cast<float>(at.y() + sigma * normal_(random_)));
-        }
-      if (visible) out.push_back(std::move(pair));
-    }
-    return out;
-  }
-
-  StereoCalibration calibrated(const std::vector<BoardPair>& pairs) {
-    return calibrate_stereo(finder_, {640, 480}, pairs);
-  }
-
-  BoardFinder finder_{parse_board("9x6", "25mm")};
-  std::array<Camera, 2> cameras_;
-  double sharpness_ = 0;  ///< expected standard deviation of corners; 0: unknown
-  std::mt19937 random_{7};
-  std::normal_distribution<double> normal_;
-};
 
 TEST_F(StereoCalibrationTest, FindsTheCamerasThatTookThePictures) {
   const StereoCalibration found = calibrated(pairs(15, 0.05));
@@ -176,14 +123,6 @@ TEST_F(StereoCalibrationTest, ResidualsOfFewCornersAreWeighedUp) {
   EXPECT_NEAR(found.spread, 0.2 * std::sqrt(2), 0.04);
 }
 
-TEST_F(StereoCalibrationTest, TangentialDistortionIsZeroUnlessItIsSeen) {
-  EXPECT_NE(calibrated(pairs(12, 0.02)).cameras[0].distortion[2], 0);
-  for (Camera& camera : cameras_) camera.distortion = {-0.25, 0.1, 0, 0, 0};
-  const StereoCalibration found = calibrated(pairs(12, 0.02));
-  EXPECT_EQ(found.cameras[0].distortion[2], 0);
-  EXPECT_EQ(found.cameras[1].distortion[3], 0);
-}
-
 TEST_F(StereoCalibrationTest, ABoardIsMeasuredByTheCameras) {
   sharpness_ = 0.05;
   const BoardPair pair = pairs(1, 0.05)[0];
@@ -212,19 +151,24 @@ TEST_F(StereoCalibrationTest, WhatNoPointTellsIsSaid) {
   }
   CheckReach reach;
   reach.add(points);
-  const std::vector<std::string> spots = reach.blind_spots(cameras_, false);
-  ASSERT_EQ(spots.size(), 4u);
+  const std::vector<std::string> spots = reach.blind_spots(cameras_, BoardReach::none);
+  ASSERT_EQ(spots.size(), 5u);
   EXPECT_THAT(spots[0], HasSubstr("errors along the epipolar lines"));
   EXPECT_THAT(spots[0], HasSubstr("the baseline of 90.0 mm"));
   EXPECT_EQ(spots[1], "anything nearer than 0.41 m or farther than 0.59 m");
   EXPECT_THAT(spots[2], HasSubstr("the lens in 50 % of the left picture"));
   EXPECT_THAT(spots[3], HasSubstr("right and the bottom right"));
+  EXPECT_THAT(spots[4], HasSubstr("centres that are some pixels off"));
   points.flat = true;
   CheckReach flat;
   flat.add(points);
-  EXPECT_THAT(flat.blind_spots(cameras_, true), testing::Contains(HasSubstr("lie on one plane")));
-  EXPECT_THAT(flat.blind_spots(cameras_, true),
+  EXPECT_THAT(flat.blind_spots(cameras_, BoardReach::measured),
+              testing::Contains(HasSubstr("lie on one plane")));
+  EXPECT_THAT(flat.blind_spots(cameras_, BoardReach::measured),
               testing::Not(testing::Contains(HasSubstr("epipolar"))));
+  const std::vector<std::string> calibrated = flat.blind_spots(cameras_, BoardReach::calibrated);
+  EXPECT_THAT(calibrated, testing::Not(testing::Contains(HasSubstr("lie on one plane"))));
+  EXPECT_THAT(calibrated, testing::Not(testing::Contains(HasSubstr("centres"))));
 }
 
 TEST_F(StereoCalibrationTest, TheVerdictSaysWhichPartsOfPicturesSawNoBoard) {

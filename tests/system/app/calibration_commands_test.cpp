@@ -1,6 +1,11 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
 #include <opencv2/imgproc.hpp>
 
 #include "app_test.hpp"
+#include "hypotrack/calibration.hpp"
 #include "hypotrack/media.hpp"
 #include "rendered_board.hpp"
 #include "test_paths.hpp"
@@ -161,6 +166,70 @@ TEST_F(RenderedCalibrationTest, SquaresInPlaceOfCornersAreNamedSoon) {
       run_on_pictures(
           {"calibrate", "--board", "10x7", "--square", "25mm", "--out", path("rig.yaml").string()}),
       {"--board is 10x7", "pictures show a chessboard of 9x6 inner corners: give --board 9x6"});
+}
+
+TEST_F(RenderedCalibrationTest, PicturesThatAreSplitInTheWrongWayEndSoon) {
+  for (int i = 0; i < 4; ++i) {
+    const auto read = [&](const char* side) {
+      return read_image(path(cv::format("%s_%02d.png", side, i)).string());
+    };
+    cv::Mat beside, above;
+    cv::hconcat(read("left"), read("right"), beside);
+    cv::vconcat(read("left"), read("right"), above);
+    write_image(path(cv::format("beside_%d.png", i)).string(), beside);
+    write_image(path(cv::format("above_%d.png", i)).string(), above);
+  }
+  const auto calibrate = [&](const char* pictures, const char* layout) {
+    return run_program({"calibrate", "--left", path(pictures).string(), "--layout", layout,
+                        "--board", "9x6", "--square", "25mm", "--out", path("rig.yaml").string()});
+  };
+  expect_refusal(calibrate("beside_*.png", "top_bottom"),
+                 {"none of the first 3 pairs shows the board", "give --layout side_by_side"});
+  expect_refusal(calibrate("above_*.png", "side_by_side"),
+                 {"seen in both halves, one above the other: give --layout top_bottom"});
+}
+
+TEST_F(RenderedCalibrationTest, RepeatedPairsDoNotCount) {
+  for (const std::string side : {"left", "right"})
+    for (const std::string number : {"01", "02", "03"})
+      std::filesystem::copy_file(path(side + "_00.png"), path(side + "_" + number + ".png"),
+                                 std::filesystem::copy_options::overwrite_existing);
+  expect_refusal(run_on_pictures({"calibrate", "--board", "9x6", "--square", "25mm", "--out",
+                                  path("rig.yaml").string()},
+                                 "0[0-3]"),
+                 {"4 pairs show the board at 1 different places; expected at least 3"});
+}
+
+TEST_F(RenderedCalibrationTest, CheckComparesWithTheCamerasOfTheBoardItself) {
+  const std::string rig = path("rig.yaml").string();
+  run_on_pictures({"calibrate", "--board", "9x6", "--square", "25mm", "--out", rig});
+  const auto check = [&] {
+    return run_on_pictures({"calibration", "check", rig, "--board", "9x6", "--square", "25mm"},
+                           "0[0-8]");
+  };
+  const Outcome right = check();
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_THAT(right.out, HasSubstr("compared with a calibration from the board: corners are"));
+  EXPECT_THAT(right.out, testing::Not(HasSubstr("centres that are some pixels off")));
+  CalibrationSettings settings;
+  settings.file = rig;
+  std::string text = "%YAML:1.0\n---\nunits: m\ncameras:\n";
+  for (Camera camera : load_calibration(settings, {320, 240})) {
+    camera.cx += 14;  // tangential distortion makes up for most of it
+    camera.distortion[3] += 14 / (2 * camera.fx);
+    const Eigen::Vector3d at = camera.camera_from_world.translation();
+    text += fmt::format(
+        "  - {{image_width: 320, image_height: 240, model: brown, K: [{}, 0, {}, 0, {}, {}, 0, 0, "
+        "1], D: [{}], R: [{}], T: [{}, {}, {}]}}\n",
+        camera.fx, camera.cx, camera.fy, camera.cy, fmt::join(camera.distortion, ", "),
+        fmt::join(camera.camera_from_world.linear().transpose().reshaped(), ", "), at.x(), at.y(),
+        at.z());
+  }
+  write_text(rig, text);
+  const Outcome wrong = check();
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out;
+  EXPECT_THAT(wrong.out, HasSubstr("the board does not agree, calibrate again: corners are"));
+  EXPECT_THAT(wrong.out, HasSubstr("whose centres are up to"));
 }
 
 TEST_F(RenderedCalibrationTest, CheckMeasuresABoardAndSaysWhatItCannotTell) {
