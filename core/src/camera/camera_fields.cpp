@@ -46,8 +46,8 @@ ConfigNode required(const ConfigNode& node, std::initializer_list<std::string_vi
 }
 
 ImageSize read_size(const ConfigNode& node) {
-  const ConfigNode width = node.get("image_width");
-  const ConfigNode height = node.get("image_height");
+  const ConfigNode width = first_of(node, {"image_width", "image_Width"});
+  const ConfigNode height = first_of(node, {"image_height", "image_Height"});
   if (width.defined() != height.defined()) {
     throw DataError(fmt::format("{}: gives only one of image_width and image_height; expected both",
                                 node.where()));
