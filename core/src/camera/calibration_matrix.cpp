@@ -31,10 +31,11 @@ YamlMatrix read_opencv_matrix(const ConfigNode& node, std::string_view name) {
   matrix.rows = read_count(node.get("rows"), name);
   matrix.cols = read_count(node.get("cols"), name);
   const std::string type = node.get("dt").defined() ? node.get("dt").scalar() : "d";
-  if (type != "d" && type != "f") {
+  constexpr std::string_view kNumbers = "ucwsifd";  // from bytes to double
+  if (type.size() != 1 || kNumbers.find(type) == kNumbers.npos) {
     throw DataError(
-        fmt::format("{} has elements of type '{}'; expected d or f (one channel of "
-                    "floating-point numbers)",
+        fmt::format("{} has elements of type '{}'; expected one of u, c, w, s, i, f and d (one "
+                    "channel of numbers)",
                     name_at(node.get("dt"), name), type.substr(0, 40)));
   }
   const ConfigNode data = node.get("data");

@@ -48,6 +48,20 @@ TEST_F(OpenCvXml, HasTheCamerasThatYamlHas) {
   EXPECT_THAT(notes, ElementsAre(AllOf(HasSubstr("rig.xml: not used: "), HasSubstr("odd"))));
 }
 
+TEST_F(OpenCvXml, MayHaveTheSizeAsAMatrixOfWholeNumbersAsPythonWritesIt) {
+  for (const char* name : {"rig.xml", "rig.yml"}) {
+    CalibrationSettings settings = stereo(name);
+    cv::FileStorage out(settings.file.string(), cv::FileStorage::WRITE);
+    const cv::Mat_<double> left(cv::Matx33d(530, 0, 320.5, 0, 531, 240.25, 0, 0, 1));
+    out << "camera_matrix" << left << "dist_coeffs" << cv::Mat_<double>::zeros(1, 5);
+    out << "image_size" << cv::Mat_<int>(cv::Matx<int, 2, 1>(640, 480));
+    out.release();
+    const Camera camera = load_calibration(settings).at(0);
+    EXPECT_EQ(camera.width, 640) << name;
+    EXPECT_EQ(camera.height, 480);
+  }
+}
+
 TEST_F(OpenCvXml, OfOlderProgramsHasLargeLettersInItsNames) {
   const std::string text =
       "<?xml version=\"1.0\"?>\n<opencv_storage>\n<image_Width>640</image_Width>\n"
