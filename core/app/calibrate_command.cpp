@@ -33,6 +33,7 @@ namespace {
 
 struct CalibrateOptions {
   CameraOptions views;
+  ColorOptions colors;
   BoardOptions board;
   bool force = false;
   int step = 1;
@@ -160,7 +161,7 @@ int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common)
   FoundBoards boards =
       live ? take_boards(finder, options, common)
            : find_boards(finder, {options.views.left, options.views.right, options.step,
-                                  layout_of(options.views), options.bits});
+                                  layout_of(options.views), options.bits, options.colors.colors()});
   if (boards.interrupted) {
     tell("hypotrack: interrupted before there were enough pairs; nothing was written\n");
     return kInterruptedExitCode;
@@ -212,6 +213,7 @@ void add_calibrate_command(const Command& root, CommonOptions& common, int& exit
   command.add("--bits", &options->bits,
               "Significant bits of 16-bit pictures, such as 12 (default: 16)",
               {.check = whole_number(8, 16)});
+  add_color_options(command, options->colors);
   command.add("--lenses", &options->lenses,
               "Calibration file with the lenses of both cameras: find only where they are");
   command.add("--cameras", &options->cameras, "Names of the two cameras in --lenses",

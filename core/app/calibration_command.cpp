@@ -25,6 +25,7 @@ struct CalibrationOptions {
   std::string left, right;
   std::optional<std::string> layout;
   std::optional<int> bits;
+  ColorOptions colors;
   BoardOptions board;
 };
 
@@ -32,16 +33,8 @@ struct CalibrationOptions {
 CalibrationSettings settings_of(const CalibrationOptions& options) {
   CalibrationSettings out = options.settings;
   out.scale = options.scale;
-  if (options.units) {
-    const auto names = enum_names(LengthUnit());
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == *options.units) out.units = static_cast<LengthUnit>(i);
-  }
-  if (options.model) {
-    const auto names = enum_names(DistortionModel());
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (names[i] == *options.model) out.model = static_cast<DistortionModel>(i);
-  }
+  if (options.units) out.units = value_named<LengthUnit>(options.units);
+  if (options.model) out.model = value_named<DistortionModel>(options.model);
   if (options.image_size) {
     int width = 0, height = 0;
     char rest = 0;
@@ -80,8 +73,9 @@ int convert(const CalibrationOptions& options) {
 
 int check(const CalibrationOptions& options) {
   constexpr int kStep = 30;  // frames of a video
-  const calibrate::PairFiles files{options.left, options.right, kStep, layout_named(options.layout),
-                                   options.bits};
+  const calibrate::PairFiles files{options.left, options.right,
+                                   kStep,        value_named<StereoLayout>(options.layout),
+                                   options.bits, options.colors.colors()};
   if (files.layout ? !files.right.empty() : files.right.empty())
     throw ConfigError("expected --left and --right, or --left with --layout");
   return check_calibration(settings_of(options), files, options.board);
@@ -142,6 +136,7 @@ void add_calibration_command(const Command& root, int& exit_code) {
   check_command.add("--bits", &of_check->bits,
                     "Significant bits of 16-bit pictures, such as 12 (default: 16)",
                     {.check = whole_number(8, 16)});
+  add_color_options(check_command, of_check->colors);
   add_board_options(check_command, of_check->board, false);
   check_command.on_call([=, &exit_code] { exit_code = check(*of_check); });
 }

@@ -10,6 +10,17 @@ void add_layout_option(const Command& command, std::optional<std::string>& layou
               {.check = one_of({names.begin(), names.end()})});
 }
 
+void add_color_options(const Command& command, ColorOptions& options) {
+  const auto matrices = enum_names(ColorMatrix());
+  const auto ranges = enum_names(ColorRange());
+  command.add("--color-matrix", &options.matrix,
+              "Matrix of the colours of videos (default: what they say, or as players assume)",
+              {.check = one_of({matrices.begin(), matrices.end()})});
+  command.add("--color-range", &options.range,
+              "Range of the samples of videos (default: what they say, or limited)",
+              {.check = one_of({ranges.begin(), ranges.end()})});
+}
+
 void add_camera_options(const Command& command, CameraOptions& options) {
   command.add("--device", &options.device,
               "Live camera with both views in its picture: a number, /dev/..., a URL or a "

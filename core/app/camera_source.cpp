@@ -35,13 +35,6 @@ void set_size(detail::YamlDocument& source, const std::string& text) {
 
 }  // namespace
 
-std::optional<StereoLayout> layout_named(const std::optional<std::string>& name) {
-  const auto names = enum_names(StereoLayout());
-  for (std::size_t i = 0; name && i < names.size(); ++i)
-    if (names[i] == *name) return static_cast<StereoLayout>(i);
-  return std::nullopt;
-}
-
 bool names_cameras(const CameraOptions& options) {
   if (!options.device.empty() && !(options.left.empty() && options.right.empty()))
     throw ConfigError(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -17,10 +18,17 @@ struct CameraOptions {
   std::optional<std::string> layout = {};  ///< of pictures of both views
 };
 
-/// Returns the layout of this name, if one is given.
-std::optional<StereoLayout> layout_named(const std::optional<std::string>& name);
+/// Returns the value of an enumeration that has this name, if one is given.
+template <class Enum>
+std::optional<Enum> value_named(const std::optional<std::string>& name) {
+  const auto names = enum_names(Enum());
+  for (std::size_t i = 0; name && i < names.size(); ++i)
+    if (names[i] == *name) return static_cast<Enum>(i);
+  return std::nullopt;
+}
+
 inline std::optional<StereoLayout> layout_of(const CameraOptions& options) {
-  return layout_named(options.layout);
+  return value_named<StereoLayout>(options.layout);
 }
 
 /// Returns whether the options name live cameras: numbers, /dev/..., URLs or GStreamer pipelines.

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <string_view>
 #include <utility>
@@ -86,6 +87,19 @@ std::vector<std::string> files_of(const std::string& pattern) {
   return out;
 }
 
+bool ends_with_one_of(const std::filesystem::path& file,
+                      std::initializer_list<std::string_view> endings) {
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+/// Returns whether a file may be a list of videos, which the reader of videos refuses with advice.
+bool may_be_playlist(const std::filesystem::path& file) {
+  return ends_with_one_of(file, {".ffconcat", ".m3u", ".m3u8", ".mpd", ".pls", ".txt", ".xspf"});
+}
+
 cv::Mat read_picture(const std::string& file, const std::optional<int>& bits) {
   ReadImage read = read_color(file, bits.value_or(16));
   if (!read.problem.empty()) throw DataError(read.problem);
@@ -93,19 +107,19 @@ cv::Mat read_picture(const std::string& file, const std::optional<int>& bits) {
 }
 
 /// Reads frames of two videos, or of one with both views, which both pictures of a pair then are.
-void read_videos(const std::vector<std::string>& names, int step,
+void read_videos(const std::vector<std::string>& names, const PairFiles& settings,
                  const std::function<void(PicturePair)>& take,
                  const std::function<void(const std::string&)>& tell) {
   std::vector<std::unique_ptr<VideoFile>> files;
   std::vector<VideoInfo> infos;
   for (const std::string& name : names) {
-    files.push_back(open_video(name));
+    files.push_back(open_video(name, settings.colors));
     infos.push_back(files.back()->info());
     std::ranges::for_each(infos.back().notes, tell);
   }
   const VideoTimeline line = make_timeline(infos, {});
   std::ranges::for_each(line.notes, tell);
-  for (std::size_t i = 0; i < line.frames.size(); i += static_cast<std::size_t>(step)) {
+  for (std::size_t i = 0; i < line.frames.size(); i += static_cast<std::size_t>(settings.step)) {
     const TimelineFrame& frame = line.frames[i];
     if (!frame.complete()) continue;
     std::array<cv::Mat, 2> pictures;
@@ -130,9 +144,8 @@ void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePa
     throw DataError(fmt::format("{} matches {} files, {} matches {}; expected as many of each",
                                 files.left, first.size(), files.right, second.size()));
   }
-  if (first.size() == 1 && is_video(first[0]))
-    return read_videos(files.layout ? first : std::vector{first[0], second[0]}, files.step, take,
-                       tell);
+  if (first.size() == 1 && (is_video(first[0]) || may_be_playlist(first[0])))
+    return read_videos(files.layout ? first : std::vector{first[0], second[0]}, files, take, tell);
   if (const std::string note = order_note(first, second); !note.empty()) tell(note);
   for (std::size_t i = 0; i < first.size(); ++i)
     take({std::filesystem::path(first[i]).filename().string(), read_picture(first[i], files.bits),
@@ -142,13 +155,9 @@ void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePa
 }  // namespace
 
 bool is_video(const std::filesystem::path& file) {
-  constexpr auto kEndings = std::to_array<std::string_view>(
-      {".3gp", ".asf", ".avi", ".flv", ".m2ts", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg", ".mpg",
-       ".mts", ".mxf", ".nut", ".ogv", ".ts", ".webm", ".wmv"});
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(kEndings, ending) != kEndings.end();
+  return ends_with_one_of(
+      file, {".3gp", ".asf", ".avi", ".flv", ".m2ts", ".m4v", ".mkv", ".mov", ".mp4", ".mpeg",
+             ".mpg", ".mts", ".mxf", ".nut", ".ogv", ".ts", ".webm", ".wmv"});
 }
 
 void read_pairs(const PairFiles& files, const std::function<void(PicturePair)>& take,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hypotrack/media.hpp"
 #include "hypotrack/stereo_layout.hpp"
 
 namespace hypotrack::calibrate {
@@ -23,6 +24,7 @@ struct PairFiles {
   int step = 1;                          ///< every `step`-th frame of videos counts
   std::optional<StereoLayout> layout{};  ///< of pictures of both views
   std::optional<int> bits{};             ///< significant bits of 16-bit pictures; 16 unless given
+  VideoColors colors{};                  ///< of videos that say nothing or something wrong
 };
 
 /// Returns whether a file is a video by the ending of its name.

@@ -2,6 +2,7 @@
 
 extern "C" {
 #include <libavformat/avformat.h>
+#include <libavutil/dict.h>
 #include <libavutil/pixdesc.h>
 }
 
@@ -77,6 +78,8 @@ void write_packets(const VideoRecipe& recipe, AVCodecContext& encoder, AVFormatC
   const Owned<AVPacket> packet(av_packet_alloc());
   while (avcodec_receive_packet(&encoder, packet.get()) >= 0) {
     packet->duration = duration_of(recipe, packet->pts);
+    if (recipe.damaged && packet->pts == recipe.times[*recipe.damaged])
+      std::memset(packet->data, 0xFF, static_cast<std::size_t>(packet->size));
     av_packet_rescale_ts(packet.get(), encoder.time_base, format.streams[0]->time_base);
     checked(av_write_frame(&format, packet.get()), "a packet is refused");
   }
@@ -106,6 +109,7 @@ void write_video(const std::filesystem::path& file, const VideoRecipe& recipe) {
   stream.time_base = recipe.tick;
   stream.sample_aspect_ratio = recipe.aspect;
   avcodec_parameters_from_context(stream.codecpar, encoder.get());
+  if (recipe.metadata[0]) av_dict_set(&stream.metadata, recipe.metadata[0], recipe.metadata[1], 0);
   if (recipe.display) add_display(stream, *recipe.display);
   format->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
   checked(avio_open(&format->pb, file.c_str(), AVIO_FLAG_WRITE), "the file does not open");

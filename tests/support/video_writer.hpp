@@ -29,6 +29,8 @@ struct VideoRecipe {
   AVColorRange range = AVCOL_RANGE_UNSPECIFIED;
   AVRational aspect{0, 1};
   std::optional<std::array<std::int32_t, 9>> display{};  ///< display matrix
+  std::optional<std::size_t> damaged{};                  ///< frame whose packet is overwritten
+  std::array<const char*, 2> metadata{};                 ///< a key of the stream and its value
 };
 
 /// Fills a plane of 8-bit samples.

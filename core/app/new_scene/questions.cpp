@@ -6,20 +6,11 @@
 #include <iostream>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/text.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
-namespace {
-
-/// Returns a text without the spaces around it.
-std::string trimmed(const std::string& text) {
-  constexpr const char* kSpaces = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kSpaces);
-  if (begin == std::string::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 void ask(const Question& question, const std::function<void(const std::string&)>& take) {
   if (isatty(STDIN_FILENO) != 1)
@@ -33,7 +24,7 @@ void ask(const Question& question, const std::function<void(const std::string&)>
     if (!std::getline(std::cin, line))
       throw ConfigError(fmt::format("{} is not given, and the answers have ended; expected {}",
                                     question.option, question.text));
-    std::string answer = trimmed(line);
+    std::string answer(trimmed(line));
     if (answer.empty()) answer = question.usual;
     if (answer.empty()) continue;
     try {

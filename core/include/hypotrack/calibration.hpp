@@ -95,9 +95,10 @@ struct Calibration {
 /// Reads a calibration file. The first camera is the world unless the file gives it a pose. A
 /// camera's width and height are 0 if neither file nor settings give them; fit_image_size() then
 /// sets them. `pictures` chooses between resolutions where a file has several.
-/// Throws DataError, naming file and line, on unreadable files, XML, missing matrices, wrong sizes
-/// and NaN. It also rejects skewed or upside-down intrinsics, an R that is not a rotation and
-/// unsupported lens models. Baselines must be plausible, which detects millimetres read as metres.
+/// Throws DataError, naming file and line, on unreadable files, other XML than OpenCV's, missing
+/// matrices, wrong sizes and NaN. It also rejects skewed or upside-down intrinsics, an R that is
+/// not a rotation and unsupported lens models. Baselines must be plausible, which detects
+/// millimetres read as metres.
 HYPOTRACK_API Calibration read_calibration(const CalibrationSettings& settings,
                                            const ImageSize& pictures = {});
 

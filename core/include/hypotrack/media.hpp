@@ -3,7 +3,10 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/export.hpp"
@@ -59,8 +62,22 @@ class HYPOTRACK_API VideoFile {
   virtual std::string read(std::size_t index, cv::Mat& picture) = 0;
 };
 
+/// Matrix by which a video's brightness and colour differences become red, green and blue.
+enum class ColorMatrix { bt601, bt709, bt2020 };
+HYPOTRACK_API std::span<const std::string_view> enum_names(ColorMatrix);
+/// Samples from black to white: 16 to 235 (limited) or 0 to 255 (full), of 8 bits.
+enum class ColorRange { limited, full };
+HYPOTRACK_API std::span<const std::string_view> enum_names(ColorRange);
+
+/// Colours of a video whose file says nothing or something wrong.
+struct VideoColors {
+  std::optional<ColorMatrix> matrix{};  ///< empty: that of the file, or what players assume
+  std::optional<ColorRange> range{};    ///< empty: that of the file, or limited
+};
+
 /// Opens a video file. Throws DataError if it is missing, no video, larger than images may be, or
 /// if none of its frames can be decoded.
-HYPOTRACK_API std::unique_ptr<VideoFile> open_video(const std::string& file);
+HYPOTRACK_API std::unique_ptr<VideoFile> open_video(const std::string& file,
+                                                    const VideoColors& colors = {});
 
 }  // namespace hypotrack

@@ -12,6 +12,7 @@
 
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack::internal {
@@ -35,15 +36,11 @@ std::string read_all(const std::filesystem::path& file) {
   return std::move(*text);
 }
 
-std::string_view trimmed(std::string_view cell) {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = cell.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  cell = cell.substr(first, cell.find_last_not_of(kBlank) - first + 1);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
-    cell = cell.substr(1, cell.size() - 2);
-  }
-  return cell;
+/// Returns a cell without blanks and quotes around it.
+std::string_view content_of(std::string_view cell) {
+  cell = trimmed(cell);
+  const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return quoted ? cell.substr(1, cell.size() - 2) : cell;
 }
 
 /// Returns a cell for a message: printable and not too long.
@@ -85,12 +82,12 @@ CsvTable::CsvTable(const std::filesystem::path& file)
 }
 
 void CsvTable::read_line(std::string_view line, int number) {
-  const std::string_view content = trimmed(line);
+  const std::string_view content = content_of(line);
   if (content.empty() || content.front() == '#') return;
   std::vector<std::string_view> cells;
   while (true) {
     const std::size_t comma = line.find(',');
-    cells.push_back(trimmed(line.substr(0, comma)));
+    cells.push_back(content_of(line.substr(0, comma)));
     if (comma == std::string_view::npos) break;
     line.remove_prefix(comma + 1);
   }

@@ -128,7 +128,7 @@ Calibration read_any(const ConfigNode& file, const CalibrationSettings& settings
     out.cameras = read_opencv_stereo(file, settings, out.notes);
   } else if (is("ROS camera_info", is_ros(file))) {
     out.cameras = read_ros(file, settings, out.notes);
-  } else if (is("OpenCV camera", file.get("camera_matrix").defined())) {
+  } else if (is("OpenCV camera", first_of(file, {"camera_matrix", "Camera_Matrix"}).defined())) {
     out.cameras = read_opencv_single(file, settings, out.notes);
   } else if (is("depthai (OAK)", is_depthai(file))) {
     out.cameras = read_depthai(file, settings, out.notes);
@@ -147,8 +147,8 @@ Calibration read_any(const ConfigNode& file, const CalibrationSettings& settings
     throw DataError(fmt::format(
         "{}: is no calibration; expected `cameras`, M1 and M2 as stereo_calib writes them, "
         "camera_matrix, a camchain of Kalibr, a camera_info of ROS, a ZED's .conf, a sensor.yaml "
-        "of "
-        "EuRoC, settings of ORB-SLAM, a calibration of depthai or the TOML of caliscope. Found: {}",
+        "of EuRoC, settings of ORB-SLAM, a calibration of depthai or the TOML of caliscope. Found: "
+        "{}",
         settings.file.string(),
         keys.empty() ? "no key" : fmt::format("{}", fmt::join(keys, ", "))));
   }

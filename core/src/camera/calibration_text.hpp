@@ -11,11 +11,17 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Reads YAML or JSON of cv::FileStorage, or TOML, with hypotrack's own parser of YAML:
+/// Reads YAML, JSON or XML of cv::FileStorage, or TOML, with hypotrack's own parser of YAML:
 /// cv::FileStorage crashes on damaged files and does not locate errors. Of several YAML documents
-/// that are equal but for their `header` it returns the first. Throws DataError on XML and
+/// that are equal but for their `header` it returns the first. Throws DataError on other XML and
 /// compressed files, files over 8 MiB, documents that differ and broken text.
 ConfigNode read_calibration_text(const std::filesystem::path& file);
+
+/// Returns whether a text is XML of cv::FileStorage.
+bool is_opencv_xml(std::string_view text);
+
+/// Returns such a text as JSON. Throws DataError, naming `file`, if it is damaged.
+std::string opencv_xml_as_json(const std::string& text, const std::string& file);
 
 /// A matrix of a YAML file: `!!opencv-matrix` with rows, cols, dt and data, a plain list of numbers
 /// (one row), or a list of rows.

@@ -46,8 +46,8 @@ ConfigNode required(const ConfigNode& node, std::initializer_list<std::string_vi
 }
 
 ImageSize read_size(const ConfigNode& node) {
-  const ConfigNode width = node.get("image_width");
-  const ConfigNode height = node.get("image_height");
+  const ConfigNode width = first_of(node, {"image_width", "image_Width"});
+  const ConfigNode height = first_of(node, {"image_height", "image_Height"});
   if (width.defined() != height.defined()) {
     throw DataError(fmt::format("{}: gives only one of image_width and image_height; expected both",
                                 node.where()));
@@ -57,8 +57,14 @@ ImageSize read_size(const ConfigNode& node) {
   }
   if (const ConfigNode size = first_of(node, {"imageSize", "image_size", "resolution", "size"});
       size.defined()) {
-    expect_shape(read_matrix(size, "imageSize"), 1, 2);
-    return {read_count(size.at(0), "image width"), read_count(size.at(1), "image height")};
+    const YamlMatrix sides = read_matrix(size, "imageSize");
+    expect_shape(sides, 1, 2);
+    if (size.is_list() && size.size() == 2)
+      return {read_count(size.at(0), "image width"), read_count(size.at(1), "image height")};
+    const ConfigNode data = size.get("data");  // OpenCV's Python writes sizes as matrices
+    if (data.is_list())
+      return {read_count(data.at(0), "image width"), read_count(data.at(1), "image height")};
+    throw DataError(fmt::format("{}: the image size is no pair of numbers", size.where()));
   }
   return {};
 }

@@ -1,5 +1,3 @@
-#include "camera/decoded_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>

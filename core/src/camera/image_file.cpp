@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "camera/decoded_file.hpp"
 #include "camera/orientation.hpp"
 
 namespace hypotrack {

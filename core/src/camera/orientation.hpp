@@ -1,10 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <string_view>
 
 #include "base/exported.hpp"
+#include "hypotrack/image_file.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -18,6 +20,12 @@ std::string_view turn_of(int orientation);
 
 /// Turns a decoded file as viewers do. Decoders turn TIFF files themselves, others not.
 void turn_upright(cv::Mat& image, std::string_view bytes);
+
+/// Decodes a file's pixels as stored, and turns them as viewers do. Throws if memory lacks.
+ReadImage decode_upright(const std::filesystem::path& file);
+
+/// Returns the orientation_of() a file; 0 if it cannot be read.
+int file_orientation(const std::filesystem::path& file);
 
 /// Returns what to add to a message on a picture's size if a turn by 90 degrees explains it.
 std::string advice_on_turn(int width, int height, int expected_width, int expected_height);

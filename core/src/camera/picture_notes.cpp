@@ -6,7 +6,6 @@
 #include <exception>
 #include <opencv2/core.hpp>
 
-#include "camera/decoded_file.hpp"
 #include "camera/orientation.hpp"
 #include "hypotrack/image_file.hpp"
 

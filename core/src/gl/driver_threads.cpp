@@ -1,5 +1,3 @@
-#include "gl/driver_threads.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 
 #include "base/machine.hpp"
 #include "base/system_problem.hpp"
+#include "gl/egl_context.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::gl::internal {

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "gl/driver_threads.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::gl::internal {

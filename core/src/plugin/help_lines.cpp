@@ -2,20 +2,16 @@
 
 #include <algorithm>
 
+#include "hypotrack/text.hpp"
+
 namespace hypotrack::detail::internal {
 namespace {
-
-std::string_view trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
 
 /// Takes the text before the next two spaces.
 std::string_view take_column(std::string_view& rest) {
   const std::size_t end = std::min(rest.find("  "), rest.size());
   const std::string_view column = rest.substr(0, end);
-  rest = trim(rest.substr(end));
+  rest = trimmed(rest.substr(end));
   return column;
 }
 

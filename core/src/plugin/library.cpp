@@ -20,7 +20,7 @@ constexpr std::string_view kFileSuffix = ".so";
 std::string_view text_of(const char* text) { return text ? text : "(null)"; }
 
 /// Returns a magic number as printable text, whatever its bytes are.
-std::string printable(std::string_view bytes) {
+std::string escaped(std::string_view bytes) {
   std::string text;
   for (const char c : bytes) {
     if (c >= 0x20 && c < 0x7F) {
@@ -145,7 +145,7 @@ std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expecte
   const std::string_view magic(plugin.magic, sizeof(plugin.magic));
   if (magic != kPluginMagic) {
     return fmt::format("is no hypotrack plugin: its descriptor begins with '{}', expected '{}'",
-                       printable(magic), kPluginMagic);
+                       escaped(magic), kPluginMagic);
   }
   if (plugin.abi_version != kAbiVersion) {
     return fmt::format(

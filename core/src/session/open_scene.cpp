@@ -10,6 +10,7 @@
 #include "cost/cost.hpp"
 #include "cost/cuda/page_locked_images.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text.hpp"
 #include "plugin/plugin_call.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "plugin/scene_keys.hpp"
@@ -90,13 +91,6 @@ std::string text_of(const ConfigNode& node, std::string_view key, std::string ot
   if (!value.is_scalar() || value.is_null() || value.scalar().empty())
     throw ConfigError(fmt::format("{}: {} must be a word", value.where(), key));
   return value.scalar();
-}
-
-/// Returns a text for messages, without control characters.
-std::string printable(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return c < 32 || c == 127; }, '?');
-  return text;
 }
 
 struct WeightParam {

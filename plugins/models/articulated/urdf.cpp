@@ -168,6 +168,10 @@ class Converter {
         return;
       case urdf::Geometry::MESH:
         break;
+      default:  // of newer versions of urdfdom
+        fail(visual.name,
+             "its geometry is no box, cylinder, sphere or mesh; make a capsule of a "
+             "cylinder and two spheres, in a <visual> each, or of a mesh");
     }
     const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
     visual.kind = ShapeKind::mesh;

@@ -46,7 +46,7 @@ class Log final : public console_bridge::OutputHandler {
 };
 
 /// Returns a text for messages: one line without control characters.
-std::string printable(std::string text) {
+std::string one_line(std::string text) {
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
   while (text.ends_with('.') || text.ends_with(' ')) text.pop_back();
@@ -161,9 +161,13 @@ urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file,
   std::string hint;
   if (text.find("xacro:") != std::string::npos)
     hint = "; this is a xacro macro file: write the URDF that `xacro` makes of it";
+  else if (log.text().find("Unknown geometry type") != std::string::npos)
+    hint =
+        "; a <geometry> is a <box>, <cylinder>, <sphere> or <mesh>: make a capsule of a cylinder "
+        "and two spheres, in a <visual> each, or of a mesh";
   throw DataError(
       fmt::format("{}: this is no valid URDF file: {}{}", file.string(),
-                  log.text().empty() ? "urdfdom does not read it" : printable(log.text()), hint));
+                  log.text().empty() ? "urdfdom does not read it" : one_line(log.text()), hint));
 }
 
 }  // namespace hypotrack::articulated

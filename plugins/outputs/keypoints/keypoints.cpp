@@ -6,6 +6,7 @@
 #include "hand_model.hpp"
 #include "hypotrack/model_files.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/tables.hpp"
 #include "hypotrack/text_file.hpp"
 #include "person.hpp"
 
@@ -56,7 +57,7 @@ class Keypoints final : public Output {
   std::optional<TextFile> file_;
 };
 
-void Keypoints::frame(const Frame& /*frame*/, const Solution& solution) {
+void Keypoints::frame(const Frame& frame, const Solution& solution) {
   using Json = nlohmann::ordered_json;
   constexpr double kOpenPoseVersion = 1.3;  // of its JSON files
   const Scene& scene = run_->scene();
@@ -77,7 +78,10 @@ void Keypoints::frame(const Frame& /*frame*/, const Solution& solution) {
                      {"frame", solution.frame},
                      {"time", solution.time},
                      {"people", std::move(people)}};
-  file_->write(json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  std::string line = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  // A number of JSON's library does not keep every digit.
+  if (frame.stamp) line.insert(line.find(",\"people\""), ",\"stamp\":" + stamp_text(*frame.stamp));
+  file_->write(line + "\n");
 }
 
 }  // namespace

@@ -17,10 +17,12 @@ void read_device(Device& device, const DeviceSettings& settings, PictureQueues& 
                  std::size_t index) {
   const double usual_wait = 0.5e9 / settings.params.fps.value_or(kUsualRate);
   int may_be_old = settings.is_stream() ? 100 : 8;
+  std::size_t told = device.refused().size();
   while (!pictures.stopped()) {
     const std::int64_t begin = now();
     Picture picture;
     const Device::Result result = device.read(picture);
+    for (; told < device.refused().size(); ++told) pictures.tell(index, device.refused()[told]);
     if (result == Device::Result::end) return;
     if (result == Device::Result::damaged) {
       pictures.add_damaged(index);

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace hypotrack::live {
 namespace {
@@ -204,12 +205,24 @@ std::int64_t Device::stamp_of(std::int64_t arrival) const {
   return driver > arrival - kOldest && driver <= arrival ? driver : arrival;
 }
 
+/// Notes that the Exif data of a JPEG file turned its picture.
+void Device::note_turn(const cv::Mat& file, const cv::Mat& upright) {
+  const cv::Mat stored = cv::imdecode(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (stored.size() == upright.size() && cv::norm(stored, upright, cv::NORM_INF) == 0) return;
+  refused_.push_back(
+      fmt::format("{}: its pictures are turned as their Exif data say and viewers do; the "
+                  "calibration must be of turned pictures",
+                  settings_.label()));
+}
+
 cv::Mat Device::decoded() {
   cv::Mat image;
   if (!capture_.retrieve(image) || image.empty()) return {};
   if (jpeg_) {
     if (!ends_whole(image)) return {};
-    return cv::imdecode(image, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    const cv::Mat upright = cv::imdecode(image, cv::IMREAD_COLOR);
+    if (!std::exchange(decoded_any_, true)) note_turn(image, upright);
+    return upright;
   }
   if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
   if (image.type() != CV_8UC3) return {};

@@ -41,7 +41,7 @@ class Device {
 
   /// Opens the device and applies the settings. Returns why that failed, or nothing.
   std::string open();
-  /// Returns what the device refused of its settings.
+  /// Returns what the device refused of its settings, and after the first picture how it is turned.
   const std::vector<std::string>& refused() const { return refused_; }
 
   /// Returns the pictures per second that the device states; 0 if it does not.
@@ -62,11 +62,13 @@ class Device {
   void apply_settings();
   std::int64_t stamp_of(std::int64_t arrival) const;
   cv::Mat decoded();
+  void note_turn(const cv::Mat& file, const cv::Mat& upright);
 
   DeviceSettings settings_;
   cv::VideoCapture capture_;
   std::vector<std::string> refused_;
-  bool jpeg_ = false;  ///< pictures come as JPEG files
+  bool jpeg_ = false;         ///< pictures come as JPEG files
+  bool decoded_any_ = false;  ///< of them
 };
 
 }  // namespace hypotrack::live

@@ -179,6 +179,11 @@ std::vector<std::string> PictureQueues::refused(std::size_t device) {
   return queues_[device].refused;
 }
 
+void PictureQueues::tell(std::size_t device, std::string line) {
+  const std::lock_guard lock(mutex_);
+  queues_[device].refused.push_back(std::move(line));
+}
+
 std::vector<bool> PictureQueues::stop(std::int64_t deadline) {
   std::unique_lock lock(mutex_);
   stopped_ = true;

@@ -54,6 +54,8 @@ class PictureQueues {
   std::string problem(std::int64_t tolerance);
   DeviceCounts counts(std::size_t device);
   std::vector<std::string> refused(std::size_t device);
+  /// Adds a line for the user to refused().
+  void tell(std::size_t device, std::string line);
   /// Tells the capture threads to end and waits for them until the deadline. Returns which ended.
   std::vector<bool> stop(std::int64_t deadline);
 

@@ -13,6 +13,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
 #include "hypotrack/suggest.hpp"
+#include "hypotrack/text.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
@@ -28,20 +29,6 @@ Stamp nanoseconds_in(TimeUnit unit) {
 }
 
 std::string_view name_of(TimeUnit unit) { return kUnits[static_cast<std::size_t>(unit)]; }
-
-std::string_view trimmed(std::string_view text, std::string_view what = " \t\r") {
-  const std::size_t first = text.find_first_not_of(what);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(what) + 1 - first);
-}
-
-/// Returns a text for messages, without control characters and not too long.
-std::string shown(std::string_view text) {
-  std::string out(text.substr(0, 60));
-  std::replace_if(
-      out.begin(), out.end(), [](unsigned char c) { return c < 32; }, '?');
-  return out + (text.size() > 60 ? "..." : "");
-}
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
@@ -109,7 +96,7 @@ Column find_column(const std::vector<Line>& lines, const TimestampSettings& sett
   const std::vector<std::string> names = cells_of(trimmed(lines.front().text, "# \t"));
   throw DataError(fmt::format("{}:{}: there is no column '{}'; expected one of {}{}",
                               settings.file.string(), lines.front().number, settings.column,
-                              shown(fmt::format("{}", fmt::join(names, ", "))),
+                              printable(fmt::format("{}", fmt::join(names, ", "))),
                               did_you_mean(settings.column, names)));
 }
 
@@ -122,7 +109,7 @@ void refuse_table(std::string_view line, const std::string& where) {
   throw DataError(
       fmt::format("{}: '{}' is no number alone; expected one, or the name of a table's column in "
                   "timestamps.column",
-                  where, shown(line)));
+                  where, printable(line)));
 }
 
 void expect_later(Stamp before, int line_before, Stamp now, std::string_view text,
@@ -131,12 +118,12 @@ void expect_later(Stamp before, int line_before, Stamp now, std::string_view tex
   if (now == before) {
     throw DataError(
         fmt::format("{}: the time {} is that of line {}, too; expected one line per image", where,
-                    shown(text), line_before));
+                    printable(text), line_before));
   }
   throw DataError(
       fmt::format("{}: the time {} is {:.6g} s before that of line {}; expected times that grow, "
                   "in the order of the images",
-                  where, shown(text), seconds_between(now, before), line_before));
+                  where, printable(text), seconds_between(now, before), line_before));
 }
 
 }  // namespace
@@ -172,15 +159,15 @@ Stamp parse_stamp(std::string_view text, TimeUnit unit, const std::string& where
   const char* end = text.data() + text.size();
   const auto [stop, failure] = std::from_chars(text.data(), end, value);
   if (failure == std::errc::invalid_argument || stop != end || std::isnan(value)) {
-    throw DataError(fmt::format("{}: '{}' is no time; expected a number of {}", where, shown(text),
-                                name_of(unit)));
+    throw DataError(fmt::format("{}: '{}' is no time; expected a number of {}", where,
+                                printable(text), name_of(unit)));
   }
   value *= nanoseconds_in(unit);
   if (failure != std::errc{} || !(std::abs(value) < kFarthest)) {
     throw DataError(
         fmt::format("{}: the time {} {} is out of range; expected less than 146 years from 0: is "
                     "`unit` right?",
-                    where, shown(text), name_of(unit)));
+                    where, printable(text), name_of(unit)));
   }
   return std::llround(value);
 }

@@ -13,6 +13,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/pair_by_time.hpp"
+#include "hypotrack/text.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack::rgbd {
@@ -43,20 +44,6 @@ std::string read_text(const std::filesystem::path& file) {
   return std::move(*text);
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
-}
-
-/// Returns a line for messages, without control characters and not too long.
-std::string shown(std::string_view line) {
-  std::string text(line.substr(0, 60));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 32; }, '?');
-  return text + (line.size() > 60 ? "..." : "");
-}
-
 TimedImage read_line(std::string_view line, const std::filesystem::path& folder,
                      const std::string& where) {
   TimedImage image;
@@ -70,7 +57,7 @@ TimedImage read_line(std::string_view line, const std::filesystem::path& folder,
     throw DataError(fmt::format(
         "{}: '{}' is not understood; expected a time in seconds and a file name, such as "
         "1305031102.175304 rgb/1305031102.175304.png",
-        where, shown(line)));
+        where, printable(line)));
   }
   image.time = static_cast<double>(seconds);
   image.stamp = std::llround(1e9L * seconds);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "hypotrack/calibration.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/stereo_layout.hpp"
 #include "hypotrack/truth.hpp"
@@ -22,6 +23,7 @@ struct VideoParams {
   std::optional<int> count;
   std::optional<double> frame_rate;
   std::optional<double> tolerance;
+  VideoColors colors;
   TruthSettings truth;
 
   void visit(ParamVisitor& v) {
@@ -56,6 +58,12 @@ struct VideoParams {
        .max = 10000,
        .unit = "ms",
        .to_si = 1e-3});
+    v("color_matrix", colors.matrix,
+      {.help = "matrix of the colours, if the files say nothing or something wrong; default: what "
+               "they say, or as players assume bt709 for HD and bt601 for SD"});
+    v("color_range", colors.range,
+      {.help = "range of the samples, if the files say nothing or something wrong; default: what "
+               "they say, or limited"});
     truth.visit(v);
   }
 };

@@ -115,7 +115,7 @@ class Video : public Source {
     refuse(params_.offset.value_or(0) != 0, "offset");
     refuse(params_.tolerance.has_value(), "tolerance_ms");
     for (const std::filesystem::path& name : names) {
-      files_.push_back(open_video(name.string()));
+      files_.push_back(open_video(name.string(), params_.colors));
       infos_.push_back(files_.back()->info());
       notes_.insert(notes_.end(), infos_.back().notes.begin(), infos_.back().notes.end());
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <string_view>
@@ -115,6 +116,38 @@ TEST(PicturePairsOfVideos, AreOfAllContainersThatRecordersWrite) {
     read_pairs({file, file}, [&](const PicturePair&) { ++pairs; });
     EXPECT_EQ(pairs, 50) << ending;
   }
+}
+
+TEST(PicturePairsOfVideos, OfPlaylistsAreRefusedWithTheWayToOneVideo) {
+  const test::TemporaryDirectory folder;
+  for (const char* name : {"list.m3u8", "list.txt"}) {
+    const std::string file = folder.path() / name;
+    std::ofstream(file) << (file.ends_with("8") ? "#EXTM3U\n#EXT-X-TARGETDURATION:1\na.ts\n"
+                                                : "file 'a.mp4'\n");
+    EXPECT_THAT(
+        [&] {
+          read_pairs({file, file}, [](const PicturePair&) {});
+        },
+        ThrowsMessage<DataError>(HasSubstr("names other files; make one video of them")));
+  }
+}
+
+TEST(PicturePairsOfVideos, TakeTheColoursThatAreGiven) {
+  const test::TemporaryDirectory folder;
+  const std::string file = folder.path() / "a.mkv";
+  test::VideoRecipe recipe{.codec = "ffv1", .times = {0, 20, 40}};
+  recipe.paint = [](AVFrame& frame, int) {
+    test::fill_plane(frame, 0, 100);
+    test::fill_plane(frame, 1, 128);
+    test::fill_plane(frame, 2, 128);
+  };
+  test::write_video(file, recipe);
+  PairFiles files{file, file};
+  files.colors = {ColorMatrix::bt709, ColorRange::full};
+  const auto take = [](const PicturePair& pair) { EXPECT_NEAR(cv::mean(pair.left)[1], 100, 1); };
+  std::vector<std::string> notes;
+  read_pairs(files, take, [&](const std::string& note) { notes.push_back(note); });
+  EXPECT_THAT(notes, testing::Not(Contains(HasSubstr("colour matrix"))));
 }
 
 TEST(PicturePairsOfVideos, OfOneVideoHaveNoPartnersToTell) {

@@ -184,6 +184,30 @@ TEST_F(RosCalibration, MessagesOfPartsOfPicturesAreRefused) {
             480);
 }
 
+TEST_F(RosCalibration, WithoutACameraMatrixIsOfRectifiedPictures) {
+  const std::string matrix =
+      "camera_matrix: {rows: 3, cols: 3, data: [700, 0, 639.5, 0, 700, 359.5, 0, 0, 1]}\n";
+  const std::string zeros =
+      "camera_matrix: {rows: 3, cols: 3, data: [0, 0, 0, 0, 0, 0, 0, 0, 0]}\n";
+  for (const std::string& instead : {std::string(), zeros}) {
+    const std::string left = with(kRosFile, matrix, instead);
+    CalibrationSettings settings = file("first.yaml", left);
+    settings.second = write("second.yaml",
+                            with(left, "[700, 0, 639.5, 0, 0, 700,", "[710, 0, 640, -71, 0, 710,"));
+    std::vector<std::string> notes;
+    const std::vector<Camera> cameras = load_calibration(settings, {}, &notes);
+    ASSERT_EQ(cameras.size(), 2);
+    EXPECT_EQ(cameras[0].fx, 700);
+    EXPECT_EQ(cameras[1].fx, 710);
+    EXPECT_EQ(cameras[1].cx, 640);
+    EXPECT_EQ(cameras[1].cy, 359.5);
+    EXPECT_THAT(cameras[1].distortion, IsEmpty());
+    EXPECT_TRUE(cameras[1].camera_from_world.translation().isApprox(Eigen::Vector3d(-0.1, 0, 0)));
+    EXPECT_THAT(notes, testing::Contains(HasSubstr("its projection matrix is read, which is of "
+                                                   "rectified pictures")));
+  }
+}
+
 TEST_F(RosCalibration, UnknownKeysAreNamedInANoteForEachFile) {
   const std::string bottom = with(kRosFile, kRow1, "[700, 0, 639.5, 0, 0, 700, 359.5, -84, 0");
   const CalibrationSettings settings =

@@ -67,6 +67,15 @@ TEST_F(VideoFiles, HaveTimesThatProgramStreamsLeaveOut) {
   }
 }
 
+TEST_F(VideoFiles, WithoutTimesAndARateSayWhatIsAssumed) {
+  const auto video =
+      written("a.mjpeg", {.codec = "mjpeg", .pixels = AV_PIX_FMT_YUVJ420P, .times = every(20, 10)});
+  ASSERT_EQ(video->info().times.size(), 10);
+  EXPECT_FALSE(video->info().has_clock);
+  EXPECT_THAT(video->info().notes,
+              Contains(HasSubstr("neither times nor a rate; 25 frames per second are assumed")));
+}
+
 TEST_F(VideoFiles, LeaveOutFramesThatAnEditListDoesNotShow) {
   const auto video = written("cut.mp4", {.times = every(20, 10, -80)});
   EXPECT_THAT(video->info().times, testing::SizeIs(6));
@@ -102,7 +111,7 @@ TEST_F(VideoFiles, AreTurnedAsPlayersDo) {
   // With x' = a x + c y and y' = b x + d y: where the stored left and top are shown.
   const Case cases[] = {{{-1, 0, 0, -1}, false, false, false, "turned by 180 degrees"},
                         {{0, 1, -1, 0}, true, true, false, "turned by 90 degrees clockwise"},
-                        {{0, -1, 1, 0}, true, false, true, "turned by 90 degrees anticlockwise"},
+                        {{0, -1, 1, 0}, true, false, true, "turned by 90 degrees counterclockwise"},
                         {{-1, 0, 0, 1}, false, false, true, "mirrored from left to right"},
                         {{1, 0, 0, -1}, false, true, false, "mirrored from top to bottom"}};
   for (const Case& c : cases) {
@@ -132,49 +141,6 @@ TEST_F(VideoFiles, SayThatTheyAreNotTurnedByOddAngles) {
   EXPECT_THAT(video->info().notes, Contains(HasSubstr("turned by 45 degrees, which is not done")));
 }
 
-/// Returns a video of one colour in YUV.
-test::VideoRecipe yuv(int y, int u, int v) {
-  return {.codec = "ffv1", .times = {0, 20}, .paint = [=](AVFrame& frame, int) {
-            test::fill_plane(frame, 0, y);
-            test::fill_plane(frame, 1, u);
-            test::fill_plane(frame, 2, v);
-          }};
-}
-
-/// Checks the colour of the first frame against one in BGR.
-void expect_color(VideoFile& video, const cv::Vec3i& expected) {
-  cv::Mat picture;
-  ASSERT_EQ(video.read(0, picture), "");
-  const auto found = picture.at<cv::Vec3b>(20, 20);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 1) << k;
-}
-
-TEST_F(VideoFiles, HaveTheColoursOfTheirMatrixAndRange) {
-  // Green 192 and others, by ITU-R BT.709 and BT.601.
-  test::VideoRecipe recipe = yuv(134, 65, 53);
-  recipe.matrix = AVCOL_SPC_BT709;
-  expect_color(*written("a.mkv", recipe), {4, 191, 3});
-  recipe.matrix = AVCOL_SPC_SMPTE170M;
-  expect_color(*written("a.mkv", recipe), {10, 223, 18});
-  recipe = yuv(100, 128, 128);
-  recipe.matrix = AVCOL_SPC_BT709;
-  recipe.range = AVCOL_RANGE_JPEG;
-  expect_color(*written("a.mkv", recipe), {100, 100, 100});
-  recipe.range = AVCOL_RANGE_MPEG;
-  expect_color(*written("a.mkv", recipe), {98, 98, 98});
-}
-
-TEST_F(VideoFiles, WithoutAMatrixHaveThatOfTheirSize) {
-  test::VideoRecipe recipe = yuv(134, 65, 53);
-  auto video = written("sd.mkv", recipe);
-  EXPECT_THAT(video->info().notes, ElementsAre(HasSubstr("BT.601 is assumed")));
-  expect_color(*video, {10, 223, 18});
-  recipe.width = 1280;
-  video = written("hd.mkv", recipe);
-  EXPECT_THAT(video->info().notes, ElementsAre(HasSubstr("BT.709 is assumed")));
-  expect_color(*video, {4, 191, 3});
-}
-
 TEST_F(VideoFiles, SayWhatOfTheirPicturesIsNotHonoured) {
   test::VideoRecipe recipe{.times = every(20, 2), .matrix = AVCOL_SPC_BT709, .aspect = {4, 3}};
   EXPECT_THAT(written("wide.mp4", recipe)->info().notes,
@@ -182,6 +148,10 @@ TEST_F(VideoFiles, SayWhatOfTheirPicturesIsNotHonoured) {
   recipe = {.codec = "png", .pixels = AV_PIX_FMT_RGBA, .times = every(20, 2)};
   recipe.paint = [](AVFrame& frame, int) { test::fill_plane(frame, 0, 99); };
   EXPECT_THAT(written("alpha.mov", recipe)->info().notes,
+              ElementsAre(HasSubstr("transparency, which is dropped")));
+  recipe = {.codec = "ffv1", .times = every(20, 2), .matrix = AVCOL_SPC_BT709};
+  recipe.metadata = {"alpha_mode", "1"};  // as VP9 with transparency has
+  EXPECT_THAT(written("beside.mkv", recipe)->info().notes,
               ElementsAre(HasSubstr("transparency, which is dropped")));
   recipe = {.codec = "ffv1", .pixels = AV_PIX_FMT_YUV420P10LE, .times = every(20, 2)};
   recipe.matrix = AVCOL_SPC_BT709;
@@ -218,6 +188,33 @@ TEST_F(VideoFiles, DamagedFramesAreToldAndNotConcealed) {
   EXPECT_LE(problems.size(), 2);
 }
 
+TEST_F(VideoFiles, DamagedPacketsOfAnyCodecAreMissingFramesAndMoveNoOthers) {
+  for (const char* codec : {"libvpx-vp9", "libvpx", "mpeg4", "mjpeg", "png", "libx264"}) {
+    SCOPED_TRACE(codec);
+    const std::string name = std::string(codec) == "libx264" ? "a.mp4" : "a.mkv";
+    test::VideoRecipe recipe{.codec = codec, .times = every(60, 8), .damaged = 3};
+    if (recipe.codec == "mjpeg") recipe.pixels = AV_PIX_FMT_YUVJ420P;
+    if (recipe.codec == "png") recipe.pixels = AV_PIX_FMT_GRAY8;
+    if (recipe.codec == "png")
+      recipe.paint = [](AVFrame& frame, int i) { test::fill_plane(frame, 0, 20 + 10 * i); };
+    const auto video = written(name, recipe);
+    const bool key_frames = recipe.codec == "mjpeg" || recipe.codec == "png";
+    const double first = read(*video, 0).at<cv::Vec3b>(20, 20)[0];
+    const double step = key_frames ? 10 : 10 * 255 / 219.0;
+    ASSERT_EQ(video->info().times.size(), 8);
+    for (std::size_t i = 0; i < 8; ++i) {
+      EXPECT_NEAR(video->info().times[i], static_cast<double>(i) / 10, 2e-3);
+      if (i == 0 || (i > 3 && !key_frames)) continue;
+      cv::Mat picture;
+      const std::string problem = video->read(i, picture);
+      if (i == 3) EXPECT_THAT(problem, HasSubstr("the frame at 0.3"));
+      EXPECT_EQ(picture.empty(), i == 3);
+      if (!picture.empty())
+        EXPECT_NEAR(picture.at<cv::Vec3b>(20, 20)[0], first + step * static_cast<double>(i), 4);
+    }
+  }
+}
+
 TEST_F(VideoFiles, SayThatTheyAreCutOff) {
   test::write_video(file("whole.mkv"), {.codec = "ffv1", .times = every(60, 20)});
   std::filesystem::resize_file(file("whole.mkv"),
@@ -247,7 +244,15 @@ TEST_F(VideoFiles, NeverOpenWhatOthersName) {
                                        "\n#EXT-X-ENDLIST\n"),
               AllOf(HasSubstr("list.m3u8: cannot be opened as a video: its format is hls"),
                     HasSubstr("other files")));
-  EXPECT_THAT(refusal("list.txt", "ffconcat version 1.0\nfile a.ts\n"), HasSubstr("concat"));
+  for (const char* text : {"ffconcat version 1.0\nfile a.ts\n", "# all\n\n  file 'a.ts'\n"})
+    EXPECT_THAT(refusal("list.txt", text),
+                AllOf(HasSubstr("concat, a list that names other files"),
+                      HasSubstr("ffmpeg -f concat -safe 0 -i LIST -c copy OUT.mkv")));
+  for (const char* text : {"#EXTM3U\n#EXTINF:1,\na.ts\n", "a.ts\n"})
+    EXPECT_THAT(refusal("list.m3u", text),
+                HasSubstr("a playlist that names other files; give a video that it names"));
+  EXPECT_THAT(refusal("live.sdp", "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=x\nm=video 5000 RTP/AVP 96\n"),
+              HasSubstr("describes a live stream"));
   EXPECT_THAT(refusal("text.mp4", "no video"), HasSubstr("cannot be opened as a video"));
   EXPECT_THAT(test::message_of<DataError>([&] { open_video("concat:" + file("a.ts")); }),
               HasSubstr("no such file"));

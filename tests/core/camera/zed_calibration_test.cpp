@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cctype>
 #include <opencv2/calib3d.hpp>
 
 #include "calibration_files.hpp"
@@ -202,6 +203,42 @@ TEST_F(ZedCalibration, FourCoefficientsAreOfAFisheyeLens) {
               ThrowsMessage<DataError>(HasSubstr("leave `model: fisheye` out")));
   const std::string padded = with_left_lens(four + "k5 = 0\nk6 = 0\np1 = 0\np2 = 0\n");
   EXPECT_THAT(notes_on(padded), testing::Contains(HasSubstr("write `model: fisheye`")));
+}
+
+TEST_F(ZedCalibration, IsTheSameInEveryFormOfAnIniFile) {
+  const std::vector<Camera> expected = load_calibration(file("SN1.conf", kZedX), kSvga);
+  const auto changed = [](std::string_view text, auto change) {
+    std::string out;
+    for (const char c : text) out += change(c);
+    return out;
+  };
+  const auto lower = [](char c) { return std::string(1, static_cast<char>(std::tolower(c))); };
+  const auto upper = [](char c) { return std::string(1, static_cast<char>(std::toupper(c))); };
+  const auto breaks = [](char c) { return c == '\n' ? "\r\n" : std::string(1, c); };
+  const auto comments = [](char c) { return c == '\n' ? " ; of the maker\n" : std::string(1, c); };
+  const auto hashes = [](char c) { return c == '\n' ? "# 1 = [2]\n" : std::string(1, c); };
+  const auto colons = [](char c) { return std::string(1, c == '=' ? ':' : c); };
+  for (const std::string& text :
+       {changed(kZedX, lower), changed(kZedX, upper), changed(kZedX, breaks),
+        changed(kZedX, comments), changed(kZedX, hashes), changed(kZedX, colons),
+        "\xEF\xBB\xBF; SN1\n\n" + std::string(kZedX),
+        with(kZedX, "[LEFT_CAM_SVGA]", "[ Left_Cam_svga ]")}) {
+    const auto settings = file("SN2.conf", text);
+    const std::vector<Camera> cameras = load_calibration(settings, kSvga);
+    ASSERT_EQ(cameras.size(), 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(cameras[i].fx, expected[i].fx) << text;
+      EXPECT_EQ(cameras[i].distortion, expected[i].distortion);
+      EXPECT_TRUE(cameras[i].camera_from_world.isApprox(expected[i].camera_from_world, 1e-12));
+    }
+  }
+}
+
+TEST_F(ZedCalibration, NamesThePlaceOfWhatIsNoNumber) {
+  EXPECT_THAT(loading(file("SN1.conf", with(kZedX, "fx = 370\n", "fx = 370 px\n")), kSvga),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("SN1.conf:14:"), HasSubstr("'370 px'"))));
+  EXPECT_THAT(loading(file("SN1.conf", std::string(kZedX) + "[STEREO]\nTY = 0\n"), kSvga),
+              ThrowsMessage<DataError>(HasSubstr("cannot redefine existing table 'STEREO'")));
 }
 
 TEST_F(ZedCalibration, WhatIsNotUsedIsListedInOneNote) {

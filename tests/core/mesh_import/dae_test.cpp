@@ -107,6 +107,16 @@ TEST_F(DaeFile, UpAxisTurnsNothing) {
               ElementsAre(HasSubstr("its <up_axis> Y_UP turns nothing, as in RViz")));
 }
 
+TEST_F(DaeFile, TellsWhatIsTakenWhereItDoesNotSay) {
+  EXPECT_THAT(import({.asset = "<unit name='inch' meter='0.0254'/>"}).notes,
+              ElementsAre(HasSubstr("it has no <up_axis>, which means Y_UP; that turns nothing")));
+  const ImportedMesh imported =
+      import({.asset = "<unit name='centimeter'/><up_axis>Z_UP</up_axis>"});
+  EXPECT_THAT(imported.notes,
+              ElementsAre(HasSubstr("its <unit name=\"centimeter\"> has no `meter`, so its "
+                                    "coordinates are metres")));
+}
+
 TEST_F(DaeFile, HasItsPictureWithItsWrap) {
   cv::Mat3b picture(4, 4, cv::Vec3b(0, 0, 200));
   picture({2, 0, 2, 2}).setTo(cv::Vec3b(0, 200, 0));  // the upper right is green

@@ -68,10 +68,18 @@ TEST_F(DamagedMesh, WeightsThatAreNoneLeaveTheirVertexWithoutABone) {
   }
 }
 
-TEST_F(DamagedMesh, WeightsThatDoNotSumToOneAreRefused) {
-  for (const float weight : {0.3f, -0.25f, kNan, 2.0f}) {
+TEST_F(DamagedMesh, WeightsBesideWrongOnesAreRefused) {
+  for (const float weight : {-0.25f, -1e-30f, kNan}) {
     GlbContent content;
     content.weights[3] = {0.25f, weight, 0, 0};
+    EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("the weights of vertex 3 of mesh"));
+  }
+}
+
+TEST_F(DamagedMesh, WeightsThatSumToAlmostNothingAreRefused) {
+  for (const float weight : {3.57e-43f, 1e-4f}) {
+    GlbContent content;
+    content.weights[3] = {0, weight, 0, 0};
     EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("the weights of vertex 3 of mesh"));
   }
 }

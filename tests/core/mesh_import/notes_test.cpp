@@ -12,6 +12,7 @@ namespace hypotrack::test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
@@ -53,6 +54,24 @@ TEST_F(MeshNotes, PlyNamesItsUnknownElementsAndProperties) {
                     "0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2 255\n0\n"),
               ElementsAre("elements and properties that are not read: vertex quality, face red, "
                           "edge"));
+}
+
+TEST_F(MeshNotes, PlyNamesColoursUnderOldNamesAndRefusesStrips) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\n";
+  const std::string corners = "0 0 0 9\n1 0 0 9\n0 1 0 9\n1 1 0 9\n";
+  EXPECT_THAT(notes("a.ply", head +
+                                 "property uchar diffuse_red\nelement face 1\n"
+                                 "property list uchar int vertex_indices\nend_header\n" +
+                                 corners + "3 0 1 2\n"),
+              ElementsAre("elements and properties that are not read: vertex diffuse_red"));
+  const auto strips = write_file(folder_.path() / "b.ply",
+                                 head +
+                                     "property uchar red\nelement tristrips 1\n"
+                                     "property list int int vertex_indices\nend_header\n" +
+                                     corners + "4 0 1 2 3\n");
+  EXPECT_THAT(import_error(strips), HasSubstr("its triangles are in strips (element tristrips)"));
 }
 
 /// Returns binary_stl() with the attributes of its four facets.

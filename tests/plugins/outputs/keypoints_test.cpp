@@ -80,6 +80,16 @@ TEST_F(KeypointsTest, HandsHaveTheirPointsInTheWorldInTheCameraAndInEveryView) {
   }
 }
 
+TEST_F(KeypointsTest, FramesHaveTheStampOfTheirPicturesToTheNanosecond) {
+  run_.play("type: keypoints", test::random_solutions(*scene_, 1));
+  EXPECT_FALSE(read().at(0).contains("stamp"));
+  run_.stamp = 1403636579763555584;
+  run_.play("type: keypoints", test::random_solutions(*scene_, 2));
+  EXPECT_THAT(run_.lines("keypoints.jsonl").at(1),
+              HasSubstr(",\"stamp\":1403636579.763555585,\"people\":["));
+  EXPECT_EQ(read().at(1)["people"].size(), 2);
+}
+
 TEST_F(KeypointsTest, HandsThatAreNotSeenAreLeftOut) {
   std::vector<Solution> solutions = test::random_solutions(*scene_, 2);
   test::set_status(solutions[0], 1, Status::lost);

@@ -238,6 +238,28 @@ TEST_F(Video, ReportsDamagedFramesAndGoesOn) {
   EXPECT_GE(frames, 8);
 }
 
+TEST_F(Video, TakesTheColoursThatItsKeysGive) {
+  test::VideoRecipe recipe{.codec = "ffv1", .width = 128, .times = {0, 20}};
+  recipe.paint = [](AVFrame& frame, int) {
+    test::fill_plane(frame, 0, 134);
+    test::fill_plane(frame, 1, 65);
+    test::fill_plane(frame, 2, 53);
+  };
+  test::write_video(file("both.mkv"), recipe);
+  const auto color_of = [&](const std::string& more) {
+    const auto source =
+        make("type: video\nside_by_side: both.mkv\ncalibration: {file: rig.yml}\n" + more);
+    EXPECT_EQ(source->notes().empty(), !more.empty());
+    return source->next()->views[0].color.at<cv::Vec3b>(20, 20);
+  };
+  EXPECT_NEAR(color_of("")[1], 223, 2);
+  EXPECT_NEAR(color_of("color_matrix: bt709\n")[1], 191, 2);
+  EXPECT_NEAR(color_of("color_matrix: bt601\ncolor_range: full\n")[1], 210, 3);
+  EXPECT_THAT(making("type: video\nside_by_side: both.mkv\ncalibration: {file: rig.yml}\n"
+                     "color_matrix: bt2021\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("bt2020")));
+}
+
 TEST_F(Video, SaysThatAFileEndsBeforeItsHeaderSays) {
   const std::string one = "type: video\nside_by_side: both.avi\ncalibration: {file: rig.yml}\n";
   const auto statistics_of = [&] {

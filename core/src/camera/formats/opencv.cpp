@@ -8,6 +8,11 @@
 namespace hypotrack::calibration::internal {
 namespace {
 
+// Names in files of one camera. Older programs of OpenCV and Metashape write large letters.
+const std::initializer_list<std::string_view> kOneMatrix = {"camera_matrix", "Camera_Matrix"};
+const std::initializer_list<std::string_view> kOneLens = {"distortion_coefficients", "dist_coeffs",
+                                                          "Distortion_Coefficients"};
+
 const KnownButUnused kFollowsFromPose{
     "rectification, which follows from R and T",
     {"R1", "R2", "P1", "P2", "Q", "E", "F", "roi*", "validRoi*", "validPixROI*"}};
@@ -15,9 +20,14 @@ const KnownButUnused kFollowsFromPose{
 /// Returns what the calibration programs of OpenCV tell of their work, beside the cameras.
 KeyPaths keys_of_the_work() {
   return {"calibration_time",
+          "calibration_Time",
           "calibrationDate",
           "nframes",
           "nr_of_frames",
+          "nrOfFrames",
+          "board_Width",
+          "board_Height",
+          "square_Size",
           "framesCount",
           "board_width",
           "board_height",
@@ -70,12 +80,12 @@ void read_opencv_lens(const ConfigNode& file, std::initializer_list<std::string_
 Camera read_one(const ConfigNode& file, const CalibrationSettings& settings,
                 const std::string& file_name, std::vector<std::string>& notes) {
   Camera camera;
-  read_intrinsics(file.get("camera_matrix"), camera);
-  read_opencv_lens(file, {"distortion_coefficients", "dist_coeffs"}, model_of(file, settings),
-                   camera, notes);
+  read_intrinsics(first_of(file, kOneMatrix), camera);
+  read_opencv_lens(file, kOneLens, model_of(file, settings), camera, notes);
   KeyPaths used = keys_of_the_work();
-  append({"camera_matrix", "distortion_coefficients", "dist_coeffs", "fisheye_model", "units"},
-         used);
+  used.insert(used.end(), kOneMatrix.begin(), kOneMatrix.end());
+  used.insert(used.end(), kOneLens.begin(), kOneLens.end());
+  append({"fisheye_model", "units"}, used);
   append(size_keys(""), used);
   note_unused_keys(file, file_name, used, {kFollowsFromPose}, notes);
   return camera;
@@ -129,7 +139,7 @@ std::vector<NamedCamera> read_opencv_single(const ConfigNode& file,
   std::vector<NamedCamera> cameras{{"1", read_one(file, settings, settings.file.string(), notes)}};
   if (settings.second.empty()) return cameras;
   const ConfigNode second = read_calibration_text(settings.second);
-  required(second, {"camera_matrix"}, "expected the calibration of one camera");
+  required(second, kOneMatrix, "expected the calibration of one camera");
   cameras.push_back({"2", read_one(second, settings, settings.second.string(), notes)});
   take_size(file, cameras[0].camera);
   take_size(second, cameras[1].camera);

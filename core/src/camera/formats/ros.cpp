@@ -90,8 +90,26 @@ void expect_whole_pictures(const ConfigNode& file, const ImageSize& size) {
                   roi.where(), size.width, size.height));
 }
 
+/// Reads a camera of which only the rectified pictures are known: its projection matrix is given,
+/// its camera matrix is missing or full of zeros.
+void read_rectified_camera(const ConfigNode& file, double metres, RosCamera& out,
+                           std::vector<std::string>& notes) {
+  const YamlMatrix projection = read_matrix(
+      required(file, kProjection, "expected a camera_info of ROS"), "projection_matrix");
+  out.rectified = read_rectified({}, first_of(file, kProjection), metres);
+  Camera& camera = out.named.camera;
+  camera.fx = projection.values[0];
+  camera.cx = projection.values[2];
+  camera.fy = projection.values[5];
+  camera.cy = projection.values[6];
+  notes.push_back(
+      fmt::format("{}: has no camera matrix; its projection matrix is read, which is of rectified "
+                  "pictures without a lens: give these",
+                  file.where()));
+}
+
 RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& settings,
-                          std::string_view usual_name) {
+                          std::string_view usual_name, std::vector<std::string>& notes) {
   RosCamera out;
   Camera& camera = out.named.camera;
   const ConfigNode name = file.get("camera_name");
@@ -100,10 +118,15 @@ RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& set
   expect_whole_pictures(file, size);
   camera.width = size.width;
   camera.height = size.height;
+  const double metres = metres_per_unit(file, settings);
+  if (is_unknown_matrix(first_of(file, kMatrix), "camera_matrix")) {
+    read_rectified_camera(file, metres, out, notes);
+    return out;
+  }
   read_intrinsics(first_of(file, kMatrix), camera);
   read_ros_lens(file, camera);
-  out.rectified = read_rectified(first_of(file, kRectification), first_of(file, kProjection),
-                                 metres_per_unit(file, settings));
+  out.rectified =
+      read_rectified(first_of(file, kRectification), first_of(file, kProjection), metres);
   return out;
 }
 
@@ -122,12 +145,13 @@ void note_unused(const ConfigNode& file, const std::string& file_name,
 }  // namespace
 
 bool is_ros(const ConfigNode& file) {
-  return first_of(file, kMatrix).defined() && file.get("distortion_model").defined();
+  return (first_of(file, kMatrix).defined() || first_of(file, kProjection).defined()) &&
+         file.get("distortion_model").defined();
 }
 
 std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSettings& settings,
                                   std::vector<std::string>& notes) {
-  const RosCamera first = read_ros_camera(file, settings, "left");
+  const RosCamera first = read_ros_camera(file, settings, "left", notes);
   note_unused(file, settings.file.string(), notes);
   if (settings.second.empty()) return {first.named};
   const ConfigNode other = read_calibration_text(settings.second);
@@ -137,7 +161,7 @@ std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSetti
                     "second camera",
                     settings.second.string(), settings.file.string()));
   }
-  const RosCamera second = read_ros_camera(other, settings, "right");
+  const RosCamera second = read_ros_camera(other, settings, "right", notes);
   note_unused(other, settings.second.string(), notes);
   const Eigen::Vector3d offset = second.rectified.offset - first.rectified.offset;
   if (offset == Eigen::Vector3d::Zero()) {

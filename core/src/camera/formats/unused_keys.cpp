@@ -8,6 +8,8 @@
 #include <span>
 #include <utility>
 
+#include "hypotrack/text.hpp"
+
 namespace hypotrack::calibration::internal {
 namespace {
 
@@ -47,14 +49,6 @@ Match best_match(const KeyPaths& patterns, std::span<const std::string> path) {
 bool goes_below(const KeyPaths& patterns, std::span<const std::string> path) {
   return std::ranges::any_of(
       patterns, [&](const std::string& pattern) { return match(pattern, path) == Match::above; });
-}
-
-std::string printable(std::string_view name) {
-  constexpr std::size_t kLongest = 60;
-  std::string out(name.substr(0, kLongest));
-  std::ranges::replace_if(
-      out, [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
-  return out;
 }
 
 /// Collects the keys of a file that are not used.
@@ -144,8 +138,8 @@ void append(const KeyPaths& paths, KeyPaths& to) {
 
 KeyPaths size_keys(std::string_view prefix) {
   KeyPaths out;
-  for (const char* key :
-       {"image_width", "image_height", "imageSize", "image_size", "resolution", "size"})
+  for (const char* key : {"image_width", "image_height", "image_Width", "image_Height", "imageSize",
+                          "image_size", "resolution", "size"})
     out.push_back(fmt::format("{}{}", prefix, key));
   return out;
 }

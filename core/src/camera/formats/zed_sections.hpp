@@ -35,6 +35,18 @@ inline constexpr std::array<std::string_view, 8> kCoefficients = {"k1", "k2", "p
                                                                   "k3", "k4", "k5", "k6"};
 inline constexpr std::array<std::string_view, 4> kThinPrism = {"s1", "s2", "s3", "s4"};
 
+inline constexpr std::array<std::string_view, 11> kOtherNames = {
+    "STEREO", "MISC", "LEFT_DISTO", "RIGHT_DISTO", "Baseline", "TY",
+    "TZ",     "CV",   "RX",         "RZ",          "Sensor_ID"};
+
+/// Returns whether a text is a factory calibration: an INI file with a section [LEFT_CAM_...], in
+/// letters of any case.
+bool is_zed_text(std::string_view text);
+
+/// Returns such a text as TOML, line by line: without comments that begin with `;` or `#`, with
+/// known names in their usual case and texts in quotes.
+std::string zed_as_toml(std::string_view text);
+
 /// Returns those of some keys that a section has.
 std::vector<std::string_view> found_in(const ConfigNode& section, Keys keys);
 

@@ -64,4 +64,9 @@ const AVFrame* Decoder::next() {
   }
 }
 
+double Decoder::stated_rate() const {
+  const AVRational rate = codec_->framerate;
+  return rate.num > 0 && rate.den > 0 ? av_q2d(rate) : 0;
+}
+
 }  // namespace hypotrack::internal

@@ -14,6 +14,8 @@ class Decoder {
   const Demuxer& video() const { return video_; }
   /// Returns the next picture, valid until the next call; null at the end.
   const AVFrame* next();
+  /// Returns the frames per second that the coded pictures say; 0 if they do not.
+  double stated_rate() const;
   /// Returns the number of packets so far that could not be decoded.
   std::size_t failures() const { return failures_; }
 

@@ -5,6 +5,7 @@ extern "C" {
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <vector>
 
 #include "camera/media/ffmpeg.hpp"
@@ -15,9 +16,13 @@ namespace {
 /// Containers that hold their pictures themselves. Playlists and lists of files are none.
 constexpr const char* kContainers =
     "mov,mp4,matroska,webm,avi,mpegts,mpeg,mpegvideo,m4v,h264,hevc,obu,ivf,flv,asf,ogg,mjpeg,"
-    "yuv4mpegpipe,nut,mxf,dv,gif";
+    "yuv4mpegpipe,nut,mxf,dv,gif,apng";
 
+/// Returns what a file is that FFmpeg takes for something else than a container, and what to do.
 std::string refused(const AVInputFormat& format) {
+  const std::string_view name = format.name;
+  if (name.ends_with("_pipe") || name == "image2")
+    return "is a picture, not a video; expected pictures in the source `image_sequence`";
   return fmt::format(
       "cannot be opened as a video: its format is {} ({}), which may refer to other files or is no "
       "video; expected a file such as .mp4, .mov, .mkv, .webm, .avi or .ts",
@@ -65,6 +70,7 @@ std::string open_demuxer(const std::string& file, Demuxer& out) {
   if (avio_open2(&io, ("file:" + file).c_str(), AVIO_FLAG_READ, nullptr, nullptr) < 0)
     return "cannot be read; check its permissions";
   out.io.reset(io);
+  if (std::string list = problem_of_playlist(*io, file); !list.empty()) return list;
   const AVInputFormat* container = nullptr;
   if (av_probe_input_buffer2(io, &container, file.c_str(), nullptr, 0, 0) < 0 || !container)
     return not_opened();

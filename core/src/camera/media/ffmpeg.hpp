@@ -11,6 +11,7 @@ extern "C" {
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "base/exported.hpp"
 
@@ -23,6 +24,7 @@ struct FreeFfmpeg {
   void operator()(AVIOContext* io) const { avio_closep(&io); }
   void operator()(AVFormatContext* format) const { avformat_close_input(&format); }
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+  void operator()(AVCodecParserContext* parser) const { av_parser_close(parser); }
   void operator()(AVPacket* packet) const { av_packet_free(&packet); }
   void operator()(AVFrame* frame) const { av_frame_free(&frame); }
   void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
@@ -44,6 +46,9 @@ struct Demuxer {
 
 /// Opens a local file, and nothing that it refers to. Returns what is wrong, or an empty text.
 std::string open_demuxer(const std::string& file, Demuxer& out);
+
+/// Returns what a file is and what to do, if it is a list of other files; else an empty text.
+std::string problem_of_playlist(AVIOContext& io, std::string_view name);
 
 /// Returns side data of a stream; null if it has none of that type.
 const std::uint8_t* side_data_of(const AVStream& stream, AVPacketSideDataType type,

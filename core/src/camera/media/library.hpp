@@ -14,11 +14,13 @@ struct MediaLibrary {
   std::vector<unsigned char> (*encode)(const std::string& extension, const cv::Mat& image,
                                        const std::vector<int>& parameters);
   /// Returns null, and why, if the file is no video.
-  std::unique_ptr<VideoFile> (*open_video)(const std::string& file, std::string& problem);
+  std::unique_ptr<VideoFile> (*open_video)(const std::string& file, const VideoColors& colors,
+                                           std::string& problem);
 };
 
 /// Opens a video file with FFmpeg. Returns null, and why in `problem`, if that fails.
-std::unique_ptr<VideoFile> open_file(const std::string& file, std::string& problem);
+std::unique_ptr<VideoFile> open_file(const std::string& file, const VideoColors& colors,
+                                     std::string& problem);
 
 /// Name of the module's function that returns its MediaLibrary.
 inline constexpr const char* kMediaLibrary = "hypotrack_media_library";

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 
 #include "base/installation.hpp"
@@ -48,12 +49,22 @@ std::vector<unsigned char> encode_image(const std::string& extension, const cv::
   return library().encode(extension, image, parameters);
 }
 
-std::unique_ptr<VideoFile> open_video(const std::string& file) {
+std::span<const std::string_view> enum_names(ColorMatrix) {
+  static constexpr std::array<std::string_view, 3> kNames = {"bt601", "bt709", "bt2020"};
+  return kNames;
+}
+
+std::span<const std::string_view> enum_names(ColorRange) {
+  static constexpr std::array<std::string_view, 2> kNames = {"limited", "full"};
+  return kNames;
+}
+
+std::unique_ptr<VideoFile> open_video(const std::string& file, const VideoColors& colors) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
     throw DataError(file + ": no such file; expected a video");
   std::string problem;
-  std::unique_ptr<VideoFile> video = library().open_video(file, problem);
+  std::unique_ptr<VideoFile> video = library().open_video(file, colors, problem);
   if (!video) throw DataError(fmt::format("{}: {}", file, problem));
   return video;
 }

@@ -33,7 +33,7 @@ class OpenedFile final : public VideoFile {
 
   /// Decodes the first frame and takes from it what holds for all. Returns false if none can be
   /// decoded.
-  bool begin() {
+  bool begin(const VideoColors& colors) {
     if (!advance()) return false;
     first_ = *decoded_;
     const Demuxer& video = decoder_.video();
@@ -41,7 +41,7 @@ class OpenedFile final : public VideoFile {
     if (first_ > 0)
       notes.push_back(fmt::format(
           "begins {} frames before the first that can be decoded; they are left out", first_));
-    converter_.emplace(video, *frame_, notes);
+    converter_.emplace(video, *frame_, colors, notes);
     info_.width = on_its_side(converter_->turn()) ? frame_->height : frame_->width;
     info_.height = on_its_side(converter_->turn()) ? frame_->width : frame_->height;
     for (const std::string& note : notes) info_.notes.push_back(info_.name + ": " + note);
@@ -92,9 +92,16 @@ class OpenedFile final : public VideoFile {
   }
 
   void take_times(const AVStream& stream) {
-    info_.frame_rate = rate_of(stream);
+    info_.frame_rate = packets_.numbered ? decoder_.stated_rate() : 0;
+    if (info_.frame_rate == 0) info_.frame_rate = rate_of(stream);
     info_.tick = av_q2d(stream.time_base);
     const double rate = info_.frame_rate > 0 ? info_.frame_rate : kUsualRate;
+    const bool raw = (decoder_.video().format->iformat->flags & AVFMT_NOTIMESTAMPS) != 0;
+    if (raw && decoder_.stated_rate() == 0)
+      info_.notes.push_back(
+          fmt::format("{}: has neither times nor a rate; {:g} frames per second are assumed: give "
+                      "frame_rate",
+                      info_.name, rate));
     for (std::size_t i = first_; i < packets_.shown.size(); ++i) {
       const auto ticks = static_cast<double>(packets_.shown[i].time);
       info_.times.push_back(
@@ -122,7 +129,8 @@ std::string scan(const std::string& file, PacketTimes& out) {
 
 }  // namespace
 
-std::unique_ptr<VideoFile> open_file(const std::string& file, std::string& problem) {
+std::unique_ptr<VideoFile> open_file(const std::string& file, const VideoColors& colors,
+                                     std::string& problem) {
   PacketTimes packets;
   Demuxer video;
   problem = scan(file, packets);
@@ -132,7 +140,7 @@ std::unique_ptr<VideoFile> open_file(const std::string& file, std::string& probl
   problem = decoder.problem();
   if (!problem.empty()) return nullptr;
   auto out = std::make_unique<OpenedFile>(file, std::move(packets), std::move(decoder));
-  if (out->begin()) return out;
+  if (out->begin(colors)) return out;
   problem = "its first frame cannot be decoded; the video is damaged or empty";
   return nullptr;
 }

@@ -148,6 +148,7 @@ PacketTimes read_packet_times(Demuxer& video) {
   PacketTimes out;
   Read read;
   std::vector<std::int64_t> decoding_times;
+  SecondFields second_fields(video);
   const Ffmpeg<AVPacket> packet(av_packet_alloc());
   int result = 0;
   while (out.shown.size() < kMostPictures &&
@@ -155,7 +156,10 @@ PacketTimes read_packet_times(Demuxer& video) {
     const AVCodecID codec = video.pictures().codecpar->codec_id;
     const bool counts = packet->stream_index == video.stream && packet->size > 0;
     read.packets += counts ? 1 : 0;
-    if (counts && !(packet->flags & AV_PKT_FLAG_DISCARD) && !is_hidden(*packet, codec)) {
+    const bool second = counts && second_fields.take(*packet);
+    if (second && !out.shown.empty() && (packet->flags & AV_PKT_FLAG_CORRUPT))
+      out.shown.back().cut = true;
+    if (counts && !second && !(packet->flags & AV_PKT_FLAG_DISCARD) && !is_hidden(*packet, codec)) {
       out.shown.push_back({packet->pts, (packet->flags & AV_PKT_FLAG_CORRUPT) != 0});
       decoding_times.push_back(packet->dts);
       read.end = std::max(read.end, packet->pts + packet->duration);

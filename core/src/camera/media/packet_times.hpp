@@ -23,6 +23,20 @@ struct PacketTimes {
   std::string problem_of_end;       ///< note for the user if data are missing at the end
 };
 
+/// Finds the packets of H.264 that hold the second field of a picture, which files store as packets
+/// of their own.
+class SecondFields {
+ public:
+  explicit SecondFields(const Demuxer& video);
+  /// Takes the next packet in order of decoding. Returns whether it completes a picture.
+  bool take(const AVPacket& packet);
+
+ private:
+  Ffmpeg<AVCodecContext> codec_;
+  Ffmpeg<AVCodecParserContext> parser_;  ///< null for other codecs
+  int open_ = 0;                         ///< parity of a field that lacks its second
+};
+
 /// Returns whether a container has a time for each frame, and not a rate for all.
 bool has_clock(const Demuxer& video);
 

@@ -56,7 +56,7 @@ std::optional<Turn> turn_of(const std::int32_t* matrix) {
   }
   if (small(a, d, b) && small(a, d, c)) {
     if (b > 0) return c > 0 ? Turn::transpose : Turn::clockwise;
-    return c > 0 ? Turn::anticlockwise : Turn::antitranspose;
+    return c > 0 ? Turn::counterclockwise : Turn::antitranspose;
   }
   return std::nullopt;
 }
@@ -72,7 +72,7 @@ cv::Mat turned(const cv::Mat& picture, Turn turn) {
     case Turn::half:
       cv::rotate(picture, out, cv::ROTATE_180);
       return out;
-    case Turn::anticlockwise:
+    case Turn::counterclockwise:
       cv::rotate(picture, out, cv::ROTATE_90_COUNTERCLOCKWISE);
       return out;
     case Turn::mirror:
@@ -93,13 +93,14 @@ cv::Mat turned(const cv::Mat& picture, Turn turn) {
 }
 
 PictureConverter::PictureConverter(const Demuxer& video, const AVFrame& first,
-                                   std::vector<std::string>& notes) {
+                                   const VideoColors& colors, std::vector<std::string>& notes)
+    : colors_(colors) {
   const std::int32_t* matrix = display_matrix(video, first);
   const std::optional<Turn> found = matrix ? turn_of(matrix) : Turn::none;
   turn_ = found.value_or(Turn::none);
   if (found && turn_ != Turn::none) notes.push_back(note_of_turn(turn_));
   if (!found) notes.push_back(note_of_slant(av_display_rotation_get(matrix)));
-  add_color_notes(first, notes);
+  add_color_notes(first, colors, notes);
   add_shape_notes(video, first, notes);
 }
 
@@ -107,12 +108,13 @@ cv::Mat PictureConverter::convert(const AVFrame& frame) {
   constexpr int kRoom = 32;  // pixels
   bool full = frame.color_range == AVCOL_RANGE_JPEG;
   const AVPixelFormat format = without_range(static_cast<AVPixelFormat>(frame.format), full);
+  if (colors_.range) full = *colors_.range == ColorRange::full;
   const int flags = SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT;
   scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, format,
                                      frame.width, frame.height, AV_PIX_FMT_BGR24, flags, nullptr,
                                      nullptr, nullptr));
   if (!scaler_) return {};
-  const int* coefficients = sws_getCoefficients(color_matrix_of(frame));
+  const int* coefficients = sws_getCoefficients(color_matrix_of(frame, colors_));
   sws_setColorspaceDetails(scaler_.get(), coefficients, full ? 1 : 0, coefficients, 1, 0, 1 << 16,
                            1 << 16);
   padded_.create(frame.height, (frame.width + 2 * kRoom - 1) / kRoom * kRoom, CV_8UC3);

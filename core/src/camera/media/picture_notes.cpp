@@ -1,12 +1,14 @@
 #include "camera/media/picture_converter.hpp"
 
 extern "C" {
+#include <libavutil/dict.h>
 #include <libavutil/pixdesc.h>
 #include <libavutil/stereo3d.h>
 }
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <utility>
 
 namespace hypotrack::internal {
@@ -40,9 +42,73 @@ std::string note_of_stereo(const AVStream& stream) {
   }
 }
 
+int number_of(ColorMatrix matrix) {
+  switch (matrix) {
+    case ColorMatrix::bt601:
+      return SWS_CS_ITU601;
+    case ColorMatrix::bt709:
+      return SWS_CS_ITU709;
+    case ColorMatrix::bt2020:
+      return SWS_CS_BT2020;
+  }
+  return SWS_CS_DEFAULT;
+}
+
+const char* name_of(ColorMatrix matrix) {
+  if (matrix == ColorMatrix::bt601) return "BT.601";
+  return matrix == ColorMatrix::bt709 ? "BT.709" : "BT.2020";
+}
+
+/// Returns what is assumed of the colour matrix, or not honoured; empty if nothing is.
+std::string note_of_matrix(const AVFrame& frame, const VideoColors& colors, bool yuv) {
+  if (!yuv)
+    return colors.matrix ? "has pixels of RGB or grey, which have no matrix; color_matrix "
+                           "changes nothing"
+                         : "";
+  const char* name = av_color_space_name(frame.colorspace);
+  const bool unsaid = frame.colorspace == AVCOL_SPC_UNSPECIFIED;
+  const char* taken = is_hd(frame) ? "BT.709" : "BT.601";
+  if (colors.matrix && (unsaid || color_matrix_of(frame, colors) == color_matrix_of(frame, {})))
+    return {};
+  if (colors.matrix)
+    return fmt::format("has colours in {}; they are taken for {} as color_matrix says",
+                       name ? name : "an unknown matrix", name_of(*colors.matrix));
+  if (unsaid)
+    return fmt::format(
+        "does not say its colour matrix; {} is assumed, as players do for {}; if colours are "
+        "wrong, give color_matrix",
+        taken, is_hd(frame) ? "HD" : "SD");
+  if (frame.colorspace == AVCOL_SPC_BT2020_CL)
+    return "has colours of constant luminance, which are read as BT.2020 without it";
+  if (color_matrix_of(frame, {}) != frame.colorspace)
+    return fmt::format("has colours in {}, which is not supported; {} is assumed",
+                       name ? name : "an unknown matrix", taken);
+  return {};
+}
+
+/// Returns that the range given is not that of the file, or not used; empty if there is nothing.
+std::string note_of_range(const AVFrame& frame, const VideoColors& colors, bool yuv) {
+  if (!colors.range) return {};
+  if (!yuv) return "has pixels of RGB or grey, whose range is full; color_range changes nothing";
+  const bool full = *colors.range == ColorRange::full;
+  if (frame.color_range == (full ? AVCOL_RANGE_MPEG : AVCOL_RANGE_JPEG))
+    return fmt::format("has samples of the {} range; they are taken for {} as color_range says",
+                       full ? "limited" : "full", full ? "full" : "limited");
+  return {};
+}
+
+constexpr const char* kNoteOfAlpha = "has transparency, which is dropped";
+
+/// Returns whether a WebM file holds transparency beside the pictures, as VP8 and VP9 do.
+bool has_alpha_beside(const AVStream& stream) {
+  const AVDictionaryEntry* mode = av_dict_get(stream.metadata, "alpha_mode", nullptr, 0);
+  return mode && std::string_view(mode->value) != "0";
+}
+
 }  // namespace
 
-int color_matrix_of(const AVFrame& frame) {
+int color_matrix_of(const AVFrame& frame, const VideoColors& colors) {
+  if (colors.matrix) return number_of(*colors.matrix);
   switch (frame.colorspace) {
     case AVCOL_SPC_BT709:
     case AVCOL_SPC_FCC:
@@ -65,8 +131,8 @@ std::string note_of_turn(Turn turn) {
         return "turned by 90 degrees clockwise";
       case Turn::half:
         return "turned by 180 degrees";
-      case Turn::anticlockwise:
-        return "turned by 90 degrees anticlockwise";
+      case Turn::counterclockwise:
+        return "turned by 90 degrees counterclockwise";
       case Turn::mirror:
         return "mirrored from left to right";
       case Turn::flip:
@@ -88,26 +154,18 @@ std::string note_of_slant(double degrees) {
       -degrees);
 }
 
-void add_color_notes(const AVFrame& frame, std::vector<std::string>& notes) {
+void add_color_notes(const AVFrame& frame, const VideoColors& colors,
+                     std::vector<std::string>& notes) {
   const AVPixFmtDescriptor* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
   if (!pixels) return;
-  const bool yuv = (pixels->flags & AV_PIX_FMT_FLAG_RGB) == 0 && pixels->nb_components >= 3;
-  const char* name = av_color_space_name(frame.colorspace);
-  const char* taken = is_hd(frame) ? "BT.709" : "BT.601";
-  if (yuv && frame.colorspace == AVCOL_SPC_UNSPECIFIED)
-    notes.push_back(
-        fmt::format("does not say its colour matrix; {} is assumed, as players do for {}", taken,
-                    is_hd(frame) ? "HD" : "SD"));
-  else if (yuv && frame.colorspace == AVCOL_SPC_BT2020_CL)
-    notes.push_back("has colours of constant luminance, which are read as BT.2020 without it");
-  else if (yuv && frame.colorspace != AVCOL_SPC_UNSPECIFIED &&
-           color_matrix_of(frame) != frame.colorspace)
-    notes.push_back(fmt::format("has colours in {}, which is not supported; {} is assumed",
-                                name ? name : "an unknown matrix", taken));
+  constexpr std::uint64_t kRgb = AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL;
+  const bool yuv = (pixels->flags & kRgb) == 0 && pixels->nb_components >= 3;
+  for (std::string note : {note_of_matrix(frame, colors, yuv), note_of_range(frame, colors, yuv)})
+    if (!note.empty()) notes.push_back(std::move(note));
   if (frame.color_trc == AVCOL_TRC_SMPTE2084 || frame.color_trc == AVCOL_TRC_ARIB_STD_B67)
     notes.push_back(
         "has high dynamic range, which is not mapped to that of a screen: colours are pale");
-  if (pixels->flags & AV_PIX_FMT_FLAG_ALPHA) notes.push_back("has transparency, which is dropped");
+  if (pixels->flags & AV_PIX_FMT_FLAG_ALPHA) notes.push_back(kNoteOfAlpha);
   if (pixels->comp[0].depth > 8)
     notes.push_back(fmt::format("has {} bits per sample, of which the upper 8 are used",
                                 pixels->comp[0].depth));
@@ -126,6 +184,7 @@ void add_shape_notes(const Demuxer& video, const AVFrame& frame, std::vector<std
     notes.push_back(
         "is interlaced: a picture holds two moments; deinterlace it first (ffmpeg -i FILE -vf "
         "bwdif OUT)");
+  if (has_alpha_beside(stream)) notes.push_back(kNoteOfAlpha);
   int streams = 0;
   for (unsigned i = 0; i < video.format->nb_streams; ++i) {
     const AVStream& other = *video.format->streams[i];

@@ -99,6 +99,8 @@ void check_stl(const FileHead& file, Notes& notes) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n");
   const bool solid = first != std::string::npos && file.head.substr(first).starts_with("solid");
   if (solid && is_text(file)) return check_text(file, "STL", notes, problem_of_text_stl);
+  if (first != std::string::npos && file.head.substr(first).starts_with("SOLID") && is_text(file))
+    fail(file, "this STL file is text in capital letters; write its words in small letters");
   if (file.size < 84) fail(file, "this is no STL file: it is too short for the binary header");
   const std::uint64_t triangles = little_endian(file, 80);
   if (file.size != 84 + 50 * triangles) {  // the importer takes no others for binary
@@ -125,6 +127,10 @@ void check_ply(const FileHead& file, Notes& notes) {
   if (!header.unread.empty())
     notes.push_back("elements and properties that are not read: " + header.unread);
   if (!header.problem.empty()) fail(file, "this is no PLY file: " + header.problem);
+  if (header.has_strips)
+    fail(file,
+         "its triangles are in strips (element tristrips), which are not read; save it with faces, "
+         "for example with MeshLab");
   std::uint64_t found = 0;
   std::string line;
   if (header.is_text) {

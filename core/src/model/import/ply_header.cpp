@@ -55,18 +55,9 @@ bool reads_element(std::string_view name) {
 
 /// Returns whether the importer reads a property, or it says nothing about the surface.
 bool reads_property(std::string_view element, std::string_view name) {
-  constexpr std::array<std::string_view, 23> kOfVertices = {"x",           "y",
-                                                            "z",           "nx",
-                                                            "ny",          "nz",
-                                                            "red",         "green",
-                                                            "blue",        "r",
-                                                            "g",           "b",
-                                                            "alpha",       "s",
-                                                            "t",           "u",
-                                                            "v",           "a",
-                                                            "texture_u",   "texture_v",
-                                                            "diffuse_red", "diffuse_green",
-                                                            "diffuse_blue"};
+  constexpr std::array<std::string_view, 20> kOfVertices = {
+      "x", "y", "z", "nx",    "ny", "nz", "red", "green", "blue",      "r",
+      "g", "b", "a", "alpha", "s",  "t",  "u",   "v",     "texture_u", "texture_v"};
   constexpr std::array<std::string_view, 3> kOfFaces = {"vertex_indices", "vertex_index",
                                                         "texcoord"};
   if (element == "vertex") return std::ranges::find(kOfVertices, name) != kOfVertices.end();
@@ -104,6 +95,7 @@ class Header {
     bytes_ = 0;
     if (!reads_element(name_)) add_unread(name_);
     std::istringstream in(words[2]);
+    if (name_ == "tristrips") out_.has_strips = true;
     return in >> count_ && in.eof() && words[2][0] != '-' && count_ < kMostElements;
   }
   bool take_property(const Words& words) {

@@ -13,6 +13,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 struct PlyHeader {
   std::string problem;  ///< why the header is invalid; then nothing else is set
   bool is_text = false;
+  bool has_strips = false;  ///< of triangles, of which the importer reads one each
   std::string elements;     ///< "8 vertex, 12 face"
   std::string unread;       ///< elements and properties that are not read: "edge, vertex quality"
   std::uint64_t count = 0;  ///< number of all elements; a text file has one line for each

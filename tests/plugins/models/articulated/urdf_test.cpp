@@ -208,6 +208,10 @@ TEST_F(Urdf, SaysWhatIsWrongWithTheFile) {
   EXPECT_THAT(message(kLinks + joint("revolute",
                                      "<limit lower='0' upper='1e999' effort='1' velocity='1'/>")),
               HasSubstr("upper value (1e999) is not a valid float"));
+  EXPECT_THAT(message(visual("<geometry><capsule radius='1' length='2'/></geometry>")),
+              AllOf(HasSubstr("Unknown geometry type 'capsule'"),
+                    HasSubstr("a <geometry> is a <box>, <cylinder>, <sphere> or <mesh>: make a "
+                              "capsule of a cylinder and two spheres")));
   EXPECT_THAT(message("<xacro:include filename='x'/>" + visual("")),
               EndsWith("this is a xacro macro file: write the URDF that `xacro` makes of it"));
 }

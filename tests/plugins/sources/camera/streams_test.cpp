@@ -10,6 +10,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "mjpeg_server.hpp"
+#include "oriented_pictures.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {
@@ -87,6 +88,25 @@ TEST_F(Streams, PicturesComeWithoutACalibrationIfThatIsAskedFor) {
   expect_pair(*source->next());
   EXPECT_THAT([&] { make("type: camera\ndevice: \"" + both.url() + "\"\n"); },
               ThrowsMessage<ConfigError>(HasSubstr("calibration")));
+}
+
+TEST_F(Streams, PicturesAreTurnedAsTheirExifDataSay) {
+  constexpr int kByHalf = 3;
+  for (int i = 0; i < kPictures; ++i) {
+    cv::Mat half(48, 128, CV_8UC3, cv::Scalar::all(20));
+    half.rowRange(0, 24).setTo(cv::Scalar::all(220));
+    std::ofstream(cv::format("%s_%02d.jpg", file("turned").c_str(), i), std::ios::binary)
+        << test::jpeg_with(test::exif(kByHalf), test::encoded(".jpg", half));
+  }
+  const MjpegServer turned(pictures("turned")), both(pictures("both"));
+  const auto source = open(turned);
+  const auto frame = source->next();
+  ASSERT_TRUE(frame);
+  expect_pair(*frame);
+  EXPECT_LT(frame->views[0].color.at<cv::Vec3b>(4, 20)[0], 60);
+  EXPECT_GT(frame->views[1].color.at<cv::Vec3b>(44, 20)[0], 180);
+  EXPECT_THAT(source->notes(), testing::Contains(HasSubstr("turned as their Exif data say")));
+  EXPECT_THAT(open(both)->notes(), testing::Not(testing::Contains(HasSubstr("Exif"))));
 }
 
 TEST_F(Streams, TwoDevicesGivePairsOfNewPictures) {

@@ -1,6 +1,5 @@
-#include "model/import/reader/dae.hpp"
-
 #include <assimp/material.h>
+#include <assimp/scene.h>
 
 #include <algorithm>
 #include <boost/property_tree/xml_parser.hpp>
@@ -104,9 +103,17 @@ void check_asset(const Xml& root, Scene& out) {
   if (!(in >> metres) || !(metres > 0) || !std::isfinite(metres))
     throw std::runtime_error("its <unit meter=\"" + unit +
                              "\"> is no length of a metre's multiple");
-  const std::string up = root.get<std::string>("asset.up_axis", "Z_UP");
-  if (up.find("Z_UP") == up.npos)
-    out.notes.push_back("its <up_axis> " + up +
+  if (const std::string name = root.get<std::string>("asset.unit.<xmlattr>.name", "meter");
+      !root.get_optional<std::string>("asset.unit.<xmlattr>.meter") && name != "meter")
+    out.notes.push_back("its <unit name=\"" + name +
+                        "\"> has no `meter`, so its coordinates are metres");
+  const auto up = root.get_optional<std::string>("asset.up_axis");
+  if (!up)
+    out.notes.push_back(
+        "it has no <up_axis>, which means Y_UP; that turns nothing, as in RViz: the coordinates "
+        "are the file's");
+  else if (up->find("Z_UP") == up->npos)
+    out.notes.push_back("its <up_axis> " + *up +
                         " turns nothing, as in RViz: the coordinates are the file's");
 }
 

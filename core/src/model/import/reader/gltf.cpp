@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "model/import/reader/gltf_meshes.hpp"
-#include "model/import/reader/gltf_skin.hpp"
-#include "model/import/reader/gltf_support.hpp"
+#include "model/import/reader/gltf_steps.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
@@ -19,7 +18,7 @@ class PlainWriter {
   PlainGltf write();
 
  private:
-  void part_skins();
+  void part_meshes();
   bool is_quantized(const Json& mesh) const;
   void write_skins();
   void name_materials();
@@ -78,27 +77,32 @@ void PlainWriter::name_materials() {
   for (std::size_t i = 0; i < count; ++i) root_["materials"][i] = {{"name", std::to_string(i)}};
 }
 
-/// Gives each skin that moves a mesh a copy of it: assimp has one mesh for all nodes.
-void PlainWriter::part_skins() {
+/// Gives each skin that moves a mesh a copy of it, and each node that has its own weights of morph
+/// targets: assimp has one mesh for all nodes.
+void PlainWriter::part_meshes() {
   constexpr std::size_t kMostCopies = 1000;
-  std::map<std::uint64_t, std::map<std::uint64_t, std::size_t>> copies;  // by mesh and skin
+  using Key = std::pair<std::uint64_t, std::vector<double>>;   // skin, weights
+  std::map<std::uint64_t, std::map<Key, std::size_t>> copies;  // by mesh
   std::size_t made = 0;
   for (Json& node : root_["nodes"]) {
     if (member(node, "mesh").is_null()) continue;
     const std::uint64_t mesh = whole(node["mesh"], "mesh");
-    item(root_, "meshes", node["mesh"]);
     auto& of_mesh = copies[mesh];
-    const std::uint64_t skin = whole(node, "skin", UINT64_MAX);
-    if (skin != UINT64_MAX) item(root_, "skins", node["skin"]);
-    if (of_mesh.empty()) of_mesh[skin] = static_cast<std::size_t>(mesh);
-    if (!of_mesh.contains(skin)) {
+    const Json& original = item(root_, "meshes", node["mesh"]);
+    const bool own = !list(node, "weights").empty();
+    const Key key{whole(node, "skin", UINT64_MAX), morph_weights(own ? node : original)};
+    if (key.first != UINT64_MAX) item(root_, "skins", node["skin"]);
+    if (of_mesh.empty() && !own) of_mesh[key] = static_cast<std::size_t>(mesh);
+    if (!of_mesh.contains(key)) {
       if (++made > kMostCopies) throw std::runtime_error("its meshes have too many skins");
-      Json copy = root_["meshes"][static_cast<std::size_t>(mesh)];
+      Json copy = original;
+      copy["weights"] = key.second;
       root_["meshes"].push_back(std::move(copy));
-      of_mesh[skin] = root_["meshes"].size() - 1;
+      of_mesh[key] = root_["meshes"].size() - 1;
     }
-    node["mesh"] = of_mesh[skin];
-    if (skin != UINT64_MAX) skins_of_meshes_[of_mesh[skin]] = static_cast<std::size_t>(skin);
+    node["mesh"] = of_mesh[key];
+    if (key.first != UINT64_MAX)
+      skins_of_meshes_[of_mesh[key]] = static_cast<std::size_t>(key.first);
   }
 }
 
@@ -139,7 +143,7 @@ PlainGltf PlainWriter::write() {
   root_ = file_.root();
   if (list(root_, "meshes").empty()) throw std::runtime_error("the file holds no mesh");
   if (list(root_, "nodes").empty()) throw std::runtime_error("the file holds no nodes");
-  part_skins();
+  part_meshes();
   write_skins();
   GltfMeshes(file_, glb_).copy(root_, scales_);
   name_materials();

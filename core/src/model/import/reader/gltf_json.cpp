@@ -40,6 +40,15 @@ std::string text(const Json& object, const char* key) {
   return value.is_string() ? value.get<std::string>() : std::string();
 }
 
+std::vector<double> morph_weights(const Json& object) {
+  std::vector<double> weights;
+  for (const Json& value : list(object, "weights")) {
+    if (!value.is_number()) throw std::runtime_error("a value of 'weights' is no number");
+    weights.push_back(value.get<double>());
+  }
+  return weights;
+}
+
 std::uint64_t whole(const Json& value, const std::string& name) {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 48;
   if (value.is_number_unsigned() && value.get<std::uint64_t>() <= kMost)

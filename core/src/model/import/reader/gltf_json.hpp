@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "base/exported.hpp"
 
@@ -23,6 +24,9 @@ const Json& member(const Json& object, const char* key);
 const Json& list(const Json& object, const char* key);
 /// Returns the text of a key; an empty one if there is none.
 std::string text(const Json& object, const char* key);
+
+/// Returns the weights of morph targets of a mesh or node, one per target; empty if it has none.
+std::vector<double> morph_weights(const Json& object);
 
 /// Returns a value as a whole number from 0 to 2^48.
 std::uint64_t whole(const Json& value, const std::string& name);

@@ -71,6 +71,7 @@ void GltfMeshes::copy_indices(Json& primitive, std::size_t vertices, const std::
 void GltfMeshes::copy_influences(const Json& from, std::size_t vertices, const std::string& name,
                                  Json& to) {
   constexpr int kMostSets = 8;
+  std::vector<double> sums(vertices), wrong(vertices);
   for (int set = 0; set < kMostSets; ++set) {
     const std::string number = std::to_string(set);
     const std::string joints = "JOINTS_" + number, weights = "WEIGHTS_" + number;
@@ -80,16 +81,55 @@ void GltfMeshes::copy_influences(const Json& from, std::size_t vertices, const s
     for (double& index : indices.numbers) index = index >= 0 && index <= 65535 ? index : 65535;
     to[joints] = to_.add<std::uint16_t>(indices, kShorts);
     to[weights] = floats(from[weights], {4}, vertices, name + " " + weights).index;
+    const GltfValues values = read_accessor(file_, from[weights], {4}, name + " " + weights);
+    for (std::size_t i = 0; i < values.numbers.size(); ++i)
+      (values.numbers[i] >= 0 ? sums : wrong)[i / 4] += values.numbers[i];
+  }
+  // Vertices without any weight are refused later, if triangles use them.
+  for (std::size_t i = 0; i < vertices; ++i)
+    if (wrong[i] != 0 && sums[i] > 0)
+      throw std::runtime_error("the weights of vertex " + std::to_string(i) + " of " +
+                               name.substr(0, name.size() - 1) +
+                               " are not all numbers from 0 to 1; export the file again");
+}
+
+/// Adds the displacements of morph targets, times their weights, to positions (glTF 2.0, section
+/// 3.7.2.2).
+void GltfMeshes::add_targets(const Json& targets, const std::vector<double>& weights,
+                             GltfValues& positions, const std::string& name) {
+  for (std::size_t t = 0; t < weights.size() && t < targets.size(); ++t) {
+    const Json& index = member(targets[t], "POSITION");
+    if (weights[t] == 0 || index.is_null()) continue;
+    const std::string what = name + " morph target " + std::to_string(t);
+    const GltfValues moved = read_accessor(file_, index, {3}, what);
+    check_count(moved.count(), positions.count(), what);
+    for (std::size_t i = 0; i < moved.numbers.size(); ++i)
+      positions.numbers[i] += weights[t] * moved.numbers[i];
   }
 }
 
-void GltfMeshes::copy_primitive(Json& primitive, double scale, const std::string& name) {
+/// Copies the positions of a primitive as its morph targets move them.
+GltfMeshes::Copied GltfMeshes::copy_positions(const Json& primitive, const Json& targets,
+                                              const std::vector<double>& weights, double scale,
+                                              const std::string& name) {
+  const Json& index = member(member(primitive, "attributes"), "POSITION");
+  const bool moved = std::ranges::any_of(weights, [](double weight) { return weight != 0; });
+  if (!moved || targets.empty()) return floats(index, {3}, 0, name + " POSITION", scale);
+  GltfValues positions = read_accessor(file_, index, {3}, name + " POSITION");
+  add_targets(targets, weights, positions, name);
+  for (double& number : positions.numbers) number *= scale;
+  return {to_.add<float>(positions, kFloats), positions.width, positions.count()};
+}
+
+void GltfMeshes::copy_primitive(Json& primitive, const std::vector<double>& weights, double scale,
+                                const std::string& name) {
+  const Json targets = list(primitive, "targets");
   primitive.erase("targets");
   if (!member(member(primitive, "extensions"), kDraco).is_null())
     return keep_draco(primitive, name);
   const Json from = member(primitive, "attributes");
   Json to = Json::object();
-  const Copied positions = floats(member(from, "POSITION"), {3}, 0, name + " POSITION", scale);
+  const Copied positions = copy_positions(primitive, targets, weights, scale, name);
   const std::size_t vertices = positions.count;
   to["POSITION"] = positions.index;
   for (const auto& [key, index] : from.items()) {
@@ -132,7 +172,7 @@ void GltfMeshes::copy(Json& root, const std::vector<double>& scales) {
       const bool flat = whole(primitive, "mode", kTriangles) < kTriangles;  // points or lines
       if (flat || member(member(primitive, "attributes"), "POSITION").is_null()) continue;
       kept.push_back(primitive);
-      copy_primitive(kept.back(), scale, name);
+      copy_primitive(kept.back(), morph_weights(mesh), scale, name);
     }
     mesh["primitives"] = std::move(kept);
     mesh.erase("weights");

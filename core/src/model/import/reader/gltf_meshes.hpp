@@ -13,7 +13,8 @@ namespace hypotrack::mesh_wire {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Copies the meshes of a glTF file with positions, texture coordinates, colours, weights and
-/// indices that assimp reads right. Leaves out other attributes, morph targets, points and lines.
+/// indices that assimp reads right. Morph targets move the positions by the weights of their mesh.
+/// Leaves out other attributes, points and lines.
 class GltfMeshes {
  public:
   GltfMeshes(GltfFile& file, GlbBuilder& to) : file_(file), to_(to) {}
@@ -28,7 +29,12 @@ class GltfMeshes {
     std::size_t index, width, count;
   };
 
-  void copy_primitive(Json& primitive, double scale, const std::string& name);
+  void copy_primitive(Json& primitive, const std::vector<double>& weights, double scale,
+                      const std::string& name);
+  Copied copy_positions(const Json& primitive, const Json& targets,
+                        const std::vector<double>& weights, double scale, const std::string& name);
+  void add_targets(const Json& targets, const std::vector<double>& weights, GltfValues& positions,
+                   const std::string& name);
   void copy_indices(Json& primitive, std::size_t vertices, const std::string& name);
   void copy_influences(const Json& from, std::size_t vertices, const std::string& name, Json& to);
   void keep_draco(Json& primitive, const std::string& name);

@@ -1,8 +1,8 @@
-#include "model/import/reader/gltf_skin.hpp"
-
 #include <cmath>
 #include <map>
 #include <set>
+
+#include "model/import/reader/gltf_steps.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {

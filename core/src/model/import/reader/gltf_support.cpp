@@ -1,9 +1,10 @@
-#include "model/import/reader/gltf_support.hpp"
-
 #include <algorithm>
 #include <array>
 #include <set>
 #include <stdexcept>
+
+#include "hypotrack/text.hpp"
+#include "model/import/reader/gltf_steps.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
@@ -52,14 +53,6 @@ Support support_of(std::string_view name) {
   return known ? known->support : Support::unread;
 }
 
-/// Returns a text of the file for a message: short, and without control characters.
-std::string printable(std::string name) {
-  constexpr std::size_t kLongest = 60;
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return c < 32 || c == 127; }, '?');
-  return name.size() > kLongest ? name.substr(0, kLongest) + "..." : name;
-}
-
 /// Returns the texts of a list, for messages.
 std::vector<std::string> texts(const Json& values) {
   std::vector<std::string> names;
@@ -83,12 +76,37 @@ void add_count(std::size_t count, const char* what, const char* several,
   if (count > 0) texts.push_back(std::to_string(count) + " " + (count == 1 ? what : several));
 }
 
+/// Returns whether weights move morph targets at the start.
+bool has_moved_targets(const Json& root) {
+  const auto moves = [](const Json& object) {
+    return std::ranges::any_of(morph_weights(object), [](double weight) { return weight != 0; });
+  };
+  return std::ranges::any_of(list(root, "meshes"), moves) ||
+         std::ranges::any_of(list(root, "nodes"), moves);
+}
+
+/// Returns the names of meshes whose morph targets have what no step applies: colours and texture
+/// coordinates, or positions beside compressed ones.
+std::vector<std::string> meshes_of_odd_targets(const Json& root) {
+  std::set<std::string> names;
+  for (const Json& mesh : list(root, "meshes"))
+    for (const Json& primitive : list(mesh, "primitives"))
+      for (const Json& target : list(primitive, "targets"))
+        for (const auto& [key, index] : target.items())
+          if (key.starts_with("TEXCOORD_") || key.starts_with("COLOR_") ||
+              (key == "POSITION" &&
+               member(primitive, "extensions").contains("KHR_draco_mesh_compression")))
+            names.insert(text(mesh, "name") + " (" + key + ")");
+  return {names.begin(), names.end()};
+}
+
 /// Returns what a file has that changes the shape or the scene and is left out.
 std::vector<std::string> left_out(const Json& root) {
   std::size_t targets = 0, flat = 0;
+  const bool moved = has_moved_targets(root);
   for (const Json& mesh : list(root, "meshes")) {
     for (const Json& primitive : list(mesh, "primitives")) {
-      targets += list(primitive, "targets").size();
+      targets += moved ? 0 : list(primitive, "targets").size();
       flat += whole(primitive, "mode", 4) < 4 ? 1 : 0;
     }
   }
@@ -163,6 +181,11 @@ std::vector<std::string> gltf_notes(const GltfFile& file) {
   };
   add("glTF extensions that are not honoured: ", unread);
   add("left out: ", left_out(file.root()));
+  if (has_moved_targets(file.root())) {
+    notes.push_back(
+        "morph targets: the shape is that of the file's weights, which stay as they are");
+    add("morph targets that are not applied, of meshes: ", meshes_of_odd_targets(file.root()));
+  }
   add("attributes of vertices that are not read: ", unknown_attributes(file.root()));
   add("keys that are not read: ", unknown_keys(file.root()));
   add("chunks that are not read: ", file.unknown_chunks());

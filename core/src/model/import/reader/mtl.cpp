@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "hypotrack/text.hpp"
 #include "hypotrack/text_file.hpp"
 #include "model/import/reader/mtl_file.hpp"
 #include "model/import/reader/surfaces.hpp"

@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "hypotrack/text.hpp"
+
 namespace hypotrack::mesh_wire::internal {
 namespace {
 
@@ -99,12 +101,6 @@ void take(const std::string& key, std::string_view rest, int line, MtlMaterial& 
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kSpaces);
-  if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
-}
 
 /// Takes the first word off a text.
 std::string take_word(std::string_view& text) {

@@ -16,9 +16,6 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Begins texts of some programs on Windows.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Returns a text without the spaces around it.
-std::string_view trimmed(std::string_view text);
-
 /// Takes the first word off a text.
 std::string take_word(std::string_view& text);
 

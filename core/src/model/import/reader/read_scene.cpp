@@ -13,7 +13,6 @@
 #include <string_view>
 
 #include "model/import/reader/convert.hpp"
-#include "model/import/reader/dae.hpp"
 #include "model/import/reader/gltf.hpp"
 #include "model/import/reader/gltf_file.hpp"
 

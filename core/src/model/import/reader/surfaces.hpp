@@ -7,6 +7,8 @@
 #include "model/import/reader/gltf_file.hpp"
 #include "model/import/wire.hpp"
 
+struct aiScene;
+
 namespace hypotrack::mesh_wire {
 inline namespace HYPOTRACK_EXPORTED internal {
 
@@ -34,6 +36,10 @@ void convert_mtl_materials(const std::string& obj, Scene& out);
 /// glTF or GLB file, and adds a note per material on what is not drawn. Returns the use of their
 /// pictures. Throws std::exception on pictures that cannot be read.
 std::vector<PictureUse> convert_gltf_materials(GltfFile& file, Scene& out);
+
+/// Sets what assimp leaves out of a COLLADA file's materials, adds notes on elements that are not
+/// read and returns the use of pictures. Throws std::exception on skins and wrong units.
+std::vector<PictureUse> convert_dae(const std::string& file, const aiScene& scene, Scene& out);
 
 }  // namespace internal
 }  // namespace hypotrack::mesh_wire
