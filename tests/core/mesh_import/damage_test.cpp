@@ -68,8 +68,8 @@ TEST_F(DamagedMesh, WeightsThatAreNoneLeaveTheirVertexWithoutABone) {
   }
 }
 
-TEST_F(DamagedMesh, WeightsBesideWrongOnesAreRefused) {
-  for (const float weight : {-0.25f, -1e-30f, kNan}) {
+TEST_F(DamagedMesh, WeightsThatDoNotSumToOneAreRefused) {
+  for (const float weight : {0.3f, -0.25f, -1e-30f, kNan, 2.0f}) {
     GlbContent content;
     content.weights[3] = {0.25f, weight, 0, 0};
     EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("the weights of vertex 3 of mesh"));

@@ -6,10 +6,6 @@
 namespace hypotrack::test {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::HasSubstr;
-
 ImportedMesh import(const GlbContent& content) {
   TemporaryDirectory folder;
   return import_mesh(write_file(folder.path() / "a.glb", glb(content)));
@@ -37,21 +33,6 @@ TEST(ImportedSkin, VerticesWithoutFacesMoveNoOthers) {
     EXPECT_EQ(mesh.bone_weights(0, v), 1);
     EXPECT_EQ(imported.bones[static_cast<std::size_t>(mesh.bone_indices(0, v))].name, "root");
   }
-}
-
-TEST(ImportedSkin, WeightsThatDoNotSumToOneAreScaledAndTheFarthestIsNamed) {
-  GlbContent content;
-  content.weights[2] = {0.9f, 0, 0, 0};
-  content.weights[3] = {0.5f, 1.5f, 0, 0};
-  const ImportedMesh imported = import(content);
-  EXPECT_THAT(imported.notes,
-              Contains(AllOf(HasSubstr("the bone weights of 2 of its vertices do not sum to 1"),
-                             HasSubstr("vertex 3 differ most and sum to 2"))));
-  const Mesh& mesh = imported.mesh;
-  EXPECT_TRUE(mesh.bone_weights.colwise().sum().isOnes(1e-6f));
-  for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v)
-    if (mesh.vertices(2, v) == 1) EXPECT_NEAR(mesh.bone_weights(0, v), 0.75f, 1e-6f);
-  EXPECT_THAT(import({}).notes, ::testing::IsEmpty());
 }
 
 TEST(ImportedSkin, BoneScaleDoesNotStayInTheBindTransform) {

@@ -68,7 +68,7 @@ void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
   for (const mesh_wire::Weight& weight : part.weights) {
     soup.influences[first + weight.vertex].push_back({static_cast<int>(weight.bone), weight.value});
   }
-  normalize_weights(file, part, first, soup);
+  check_weight_sums(file, part, soup, first);
 }
 
 }  // namespace

@@ -53,7 +53,6 @@ ImportedMesh convert_mesh(const MeshFile& file) {
   imported.notes = file.scene.notes;
   imported.bones = convert_bones(file);
   const Soup soup = join_parts(file);
-  imported.notes.insert(imported.notes.end(), soup.notes.begin(), soup.notes.end());
   const Welded welded = fill_surface(file, soup, imported.mesh);
   fill_weights(soup, welded, imported.mesh);
   fill_appearance(file, soup, welded.triangles, imported.mesh, imported.notes);

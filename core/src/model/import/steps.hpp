@@ -35,7 +35,6 @@ struct Soup {
   std::vector<Eigen::Vector2f> uvs;                 // empty or one per point; 0 in parts without
   std::vector<std::array<std::uint8_t, 3>> colors;  // RGB, one per point; white in parts without
   std::vector<std::vector<BoneWeight>> influences;  // one list per point; empty for a rigid mesh
-  std::vector<std::string> notes;                   // lines for the user
 };
 
 /// The result of welding a soup: its vertices and non-degenerate triangles.
@@ -59,10 +58,10 @@ void check_part(const MeshFile& file, const mesh_wire::MeshPart& part);
 /// Checks every part and concatenates them.
 Soup join_parts(const MeshFile& file);
 
-/// Scales the weights of a skinned part, which begins at point `first`, to sum to 1. Adds a note if
-/// sums differ by more than rounding. Throws DataError unless bones move every vertex.
-void normalize_weights(const MeshFile& file, const mesh_wire::MeshPart& part, std::size_t first,
-                       Soup& soup);
+/// Throws DataError unless bones move every vertex of a skinned part, with weights that sum to 1.
+/// The part begins at point `first`.
+void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, const Soup& soup,
+                       std::size_t first);
 
 /// Fills the mesh's vertices and triangles and returns how they relate to the soup.
 Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
