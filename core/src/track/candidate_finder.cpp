@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/displace.hpp"
 #include "track/model_search.hpp"
+#include "track/sighting.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -229,12 +229,8 @@ bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size
 }
 
 bool CandidateFinder::is_same(const Candidate& a, const Candidate& b, std::size_t model) const {
-  constexpr double kSame = 0.006;  // metres, mean over landmarks
-  const Scene::Item& item = scene_.items()[model];
-  const auto landmarks = [&](const Candidate& one) {
-    return posed_landmarks(*item.model, scene_.part(item, one.found.state));
-  };
-  return (landmarks(a) - landmarks(b)).colwise().norm().mean() < kSame;
+  constexpr double kSame = 0.006;  // metres
+  return distance(model, a.found.state, b.found.state) < kSame;
 }
 
 ModelFlags CandidateFinder::lost_with(const RecoveryRequest& request, const Candidate& base,
@@ -259,6 +255,20 @@ bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
 
 bool CandidateFinder::recognizes(std::size_t model) const {
   return std::ranges::any_of(starts_, [&](const auto& start) { return start->recognizes(model); });
+}
+
+double CandidateFinder::distance(std::size_t model, const Eigen::VectorXd& a,
+                                 const Eigen::VectorXd& b) const {
+  const Scene::Item& item = scene_.items()[model];
+  return landmark_distance(*item.model, scene_.part(item, a), scene_.part(item, b));
+}
+
+std::optional<double> CandidateFinder::seen_from(const Frame& frame, std::size_t model,
+                                                 const Eigen::VectorXd& state) const {
+  if (settings_.recovery.check == 0) return std::nullopt;
+  const Scene::Item& item = scene_.items()[model];
+  return sighting(starts_, scene_, cameras_, frame, model)
+      .distance(*item.model, scene_.part(item, state));
 }
 
 void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request, Candidate& best,

@@ -108,6 +108,12 @@ class CandidateFinder {
 
   /// Returns whether any start recognises a model.
   bool recognizes(std::size_t model) const;
+  /// Returns how far apart two states have a model: metres, mean over its landmarks.
+  double distance(std::size_t model, const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  /// Returns how far a model is from where starts that recognise it see it (Sighting::distance());
+  /// nothing if none sees it, or if they are never to be asked (RecoverySettings::check is 0).
+  std::optional<double> seen_from(const Frame& frame, std::size_t model,
+                                  const Eigen::VectorXd& state) const;
   /// Returns whether the starts of the last recovery saw a sought model, all of them elsewhere.
   bool contradicted() const { return contradicted_; }
   /// Forgets how a model looks: its poses were wrong.

@@ -1,17 +1,15 @@
 #include "track/model_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/recover/held_models.hpp"
+#include "track/sighting.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -19,9 +17,6 @@ namespace {
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
 // search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
-// Distance (mean over landmarks, metres) up to which a start sees a model where a pose has it, and
-// beyond which it contradicts a tracked pose.
-constexpr double kHere = 0.025, kElsewhere = 0.04;
 constexpr std::size_t kAllPlaces = std::numeric_limits<std::size_t>::max();
 
 /// Lends a tracker's global search to its starts.
@@ -36,17 +31,6 @@ class LentSearch final : public GlobalSearch {
  private:
   Search search_;
 };
-
-/// Throws PluginError unless a start proposes a pose of the model.
-void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) {
-  const Eigen::Index size = item.model->dimension();
-  if (parameters.size() != size || !parameters.allFinite() ||
-      std::abs(parameters.segment<4>(3).norm() - 1) > 1e-6)
-    throw PluginError(
-        fmt::format("a start proposes a pose of '{}' with {} parameters; expected {} finite ones "
-                    "and a unit quaternion; this is a bug in the start",
-                    item.name, parameters.size(), size));
-}
 
 /// Returns settings whose zeros are replaced by those of recoveries.
 GlobalSearchSettings with_defaults(GlobalSearchSettings settings, const RecoverySettings& usual) {
@@ -182,10 +166,7 @@ void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& eff
 
 double CandidateFinder::ModelSearch::distance(const Eigen::VectorXd& a,
                                               const Eigen::VectorXd& b) const {
-  const auto landmarks = [&](const Eigen::VectorXd& of) {
-    return posed_landmarks(*item_.model, finder_.scene_.part(item_, of));
-  };
-  return (landmarks(a) - landmarks(b)).colwise().norm().mean();
+  return finder_.distance(model_, a, b);
 }
 
 double CandidateFinder::ModelSearch::unseen(const Eigen::VectorXd& state) const {

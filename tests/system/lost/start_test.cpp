@@ -222,6 +222,59 @@ TEST(LookedFor, RecognisedPosesAreLostHalfASecondAfterTheyWereSeenLast) {
   EXPECT_EQ(found.statuses[22], Status::lost);
 }
 
+/// Tracks a hand that has become a fist, from the pose of the first frame of the recording, when it
+/// was open. `prepare` changes the tracker's parts.
+template <class Prepare>
+std::pair<std::vector<Found>, std::vector<std::string>> track_stale(int frames, Prepare prepare) {
+  constexpr int kFist = 46;
+  PluginLoader plugins;
+  const std::vector<std::string> overrides{
+      "evaluate.backend=cpu",
+      "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+  const Eigen::VectorXd stale = session.source->next().value().truth->state;
+  for (int i = 1; i < kFist; ++i) session.source->next();
+  std::optional<SceneTracker> tracker;
+  std::vector<Found> out;
+  for (int i = 0; i < frames; ++i) {
+    const Frame frame = session.source->next().value();
+    const Eigen::Matrix3Xd truth = session.scene->landmarks(frame.truth->state);
+    if (!tracker) {
+      EXPECT_GT((session.scene->landmarks(stale) - truth).colwise().norm().mean(), 0.04);
+      prepare(session.parts, frame.truth->state);
+      tracker.emplace(*session.scene, std::move(session.parts), stale, session.seed);
+    }
+    const Solution solution = tracker->track(frame);
+    out.push_back({solution.status, (solution.landmarks - truth).colwise().norm().mean()});
+  }
+  return {out, tracker->take_notes()};
+}
+
+TEST(GivenStart, OfAnotherMomentIsContradictedByThePictures) {
+  const auto [found, notes] = track_stale(2, [](auto&...) {});
+  for (const Found& frame : found) {
+    EXPECT_EQ(frame.status, Status::tracked);
+    EXPECT_LT(frame.error, 0.010);
+  }
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_NE(notes[0].find("frame 46: the start (init) is not where 'hand' is"), std::string::npos)
+      << notes[0];
+}
+
+TEST(GivenStart, OfAnotherMomentIsContradictedByADetector) {
+  const auto [found, notes] = track_stale(2, [](TrackerParts& parts, const Eigen::VectorXd& truth) {
+    parts.starts.clear();
+    parts.starts.push_back(std::make_unique<AlwaysThere>(truth));
+  });
+  for (const Found& frame : found) {
+    EXPECT_EQ(frame.status, Status::tracked);
+    EXPECT_LT(frame.error, 0.010);
+  }
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_NE(notes[0].find("a detector sees it"), std::string::npos) << notes[0];
+}
+
 TEST(LookedFor, TrackedModelsThatAStartSeesElsewhereMoveThere) {
   EXPECT_GT(last_error_of_a_believer(0), 0.05);
   EXPECT_LT(last_error_of_a_believer(0.1), 0.01);
