@@ -145,6 +145,7 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   if (!may_be_anywhere && !is_within(finder_.scene_, reach, request_.kept,
                                      with_own_part(request_.kept, one.found.state)))
     return;
+  if (finder_.is_of_another(model_, one.found.state)) return;
   sure_ = sure_ || one.is_sure();
   found_.push_back(std::move(one));
 }

@@ -15,6 +15,12 @@ double landmark_distance(const Model& model, std::span<const double> a, std::spa
   return apart.cols() > 0 ? apart.colwise().norm().mean() : 0;
 }
 
+Eigen::Vector3d landmark_center(const Model& model, const Eigen::VectorXd& pose) {
+  return posed_landmarks(model, {pose.data(), static_cast<std::size_t>(pose.size())})
+      .rowwise()
+      .mean();
+}
+
 void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) {
   const Eigen::Index size = item.model->dimension();
   if (parameters.size() != size || !parameters.allFinite() ||

@@ -23,6 +23,9 @@ inline constexpr double kHere = 0.025, kElsewhere = 0.04;
 /// Returns the mean distance over a model's landmarks between two poses of it, in metres.
 double landmark_distance(const Model& model, std::span<const double> a, std::span<const double> b);
 
+/// Returns the mean of a model's landmarks in a pose.
+Eigen::Vector3d landmark_center(const Model& model, const Eigen::VectorXd& pose);
+
 /// Throws PluginError unless a start proposes a pose of the model.
 void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters);
 
@@ -31,7 +34,6 @@ struct Sighting {
   bool asked = false;                       ///< a start recognises the model
   std::vector<Eigen::VectorXd> poses = {};  ///< parameters of the model, which is surely there
 
-  bool denies() const { return asked && poses.empty(); }
   /// Returns the distance of a pose of the model from the nearest of them; nothing without any.
   std::optional<double> distance(const Model& model, std::span<const double> pose) const;
 };
