@@ -112,6 +112,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       terms_(parts.objective),
       settings_(of_pictures(parts.status, parts.objective)),
       given_(scene, std::move(start), !parts.begins_by_looking),
+      departure_(scene, parts.cameras),
       finder_(scene, parts, settings_),
       predictor_(scene, parts.search.prediction),
       smoother_(scene, parts.one_euro),
@@ -327,9 +328,15 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   // From here on it is as if this pose had been given as the start.
   if (!given_.expects_any() && !finder_.verifier().experienced() &&
       std::ranges::find(best.shown, false) == best.shown.end() &&
-      best.probability() >= settings_.uncertain_above && !best.is_sure())
+      best.probability() >= settings_.uncertain_above && !best.is_sure() && !is_agreed(best))
     finder_.begin_again(frame, best.found.state, settings_.recovery.first_starts,
                         seed_of_part(seed, 8), best);
+  return true;
+}
+
+bool SceneTracker::is_agreed(const Candidate& best) const {
+  for (std::size_t m = 0; m < models_.size(); ++m)
+    if (!(best.unseen[m] <= 0 && best.probabilities[m] >= settings_.tracked_above)) return false;
   return true;
 }
 
@@ -359,10 +366,8 @@ void SceneTracker::leave_start(const Frame& frame, std::size_t model, const std:
 }
 
 void SceneTracker::test_given_start(const Frame& frame, Candidate& best) {
-  if (!best.answers()) return;
-  ModelFlags left(models_.size(), false);
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    if (!awaits(m) || !best.shown[m]) continue;
+    if (!awaits(m) || !best.answers() || !best.shown[m]) continue;
     const std::optional<double> apart = finder_.seen_from(frame, m, best.found.state);
     if (apart && *apart > kElsewhere) {
       leave_start(frame, m,
@@ -372,46 +377,43 @@ void SceneTracker::test_given_start(const Frame& frame, Candidate& best) {
       drop(m, best);
     } else if (apart && *apart < kHere) {
       best.unseen[m] = 0;
-    } else {
-      left[m] =
-          best.probabilities[m] >= settings_.uncertain_above && given_.is_left(m, best.found.state);
+    } else if (best.probabilities[m] >= settings_.uncertain_above &&
+               given_.is_left(m, best.found.state)) {
+      try_other_poses(frame, m, best);
     }
   }
-  if (any(left)) try_other_poses(frame, left, best);
 }
 
-void SceneTracker::try_other_poses(const Frame& frame, const ModelFlags& left, Candidate& best) {
+void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candidate& best) {
   constexpr double kAgo = 1;  // seconds since the models were as the start has them
   const std::size_t count = models_.size();
+  const Eigen::VectorXd before = best.found.state;
+  best.probabilities[model] = given_.doubted(best.probabilities[model]);
   RecoveryRequest request{.kept = given_.state(),
                           .together = {},
                           .seconds = std::vector<double>(count, kAgo),
                           .unseen = std::vector<double>(count, kInfinite),
-                          .sought = left,
+                          .sought = ModelFlags(count, false),
                           .thorough = ModelFlags(count, false),
                           .near_only = true};
-  for (const ModelTrack& model : models_) request.needed.push_back(model.monitor.needed());
-  const Eigen::VectorXd before = best.found.state;
-  for (std::size_t m = 0; m < count; ++m)
-    if (left[m]) best.probabilities[m] = given_.doubted(best.probabilities[m]);
-  finder_.recover(frame, request, best, seed_of_part(frame_seed(seed_, frame.index), 6));
-  for (std::size_t m = 0; m < count; ++m) {
-    if (!left[m]) continue;
-    double& probability = best.probabilities[m];
-    const bool is_other = finder_.distance(m, before, best.found.state) > kHere;
-    if (!is_other && best.found.state != before) probability = given_.doubted(probability);
-    const double away = 1000 * given_.distance(m, best.found.state);
-    if (!(probability >= settings_.surely_above))
-      leave_start(frame, m,
-                  fmt::format("the pose that fits best nearby, {:.0f} mm away (mean over the "
-                              "landmarks), has the probability {:.2f}",
-                              away, probability));
-    else if (is_other)
-      given_.note(frame.index, m,
-                  fmt::format("another pose, {:.0f} mm away (mean over the landmarks), is likelier "
-                              "than that in which the search from the start ended",
-                              away));
-  }
+  request.sought[model] = true;
+  for (const ModelTrack& one : models_) request.needed.push_back(one.monitor.needed());
+  const auto part = static_cast<std::uint32_t>(200 + model);
+  finder_.recover(frame, request, best, seed_of_part(frame_seed(seed_, frame.index), part));
+  const bool is_other = finder_.distance(model, before, best.found.state) > kHere;
+  const double found = best.probabilities[model];
+  if (!is_other && best.found.state != before) best.probabilities[model] = given_.doubted(found);
+  const double away = 1000 * given_.distance(model, best.found.state);
+  if (!(best.probabilities[model] >= settings_.surely_above))
+    leave_start(frame, model,
+                fmt::format("the pose that fits best nearby, {:.0f} mm away (mean over the "
+                            "landmarks), has the probability {:.2f}",
+                            away, found));
+  else if (is_other)
+    given_.note(frame.index, model,
+                fmt::format("another pose, {:.0f} mm away (mean over the landmarks), is likelier "
+                            "than that in which the search from the start ended",
+                            away));
 }
 
 void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
@@ -461,7 +463,8 @@ void SceneTracker::wait_for_job(const Frame& frame, Solution& solution) {
 
 void SceneTracker::stay_lost(const Frame& frame, Solution& solution) {
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    solution.models[m] = models_[m].status = models_[m].monitor.judge({.cost = kInfinite});
+    solution.models[m] = models_[m].status = models_[m].monitor.judge(
+        {.cost = kInfinite, .in_view = !departure_.is_gone(m, frame.time)});
     extrapolate(m, frame.time, state_);
   }
   solution.status = Status::lost;
@@ -521,9 +524,12 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
     own.probability = best.probabilities[m];
     if (solution.sigma.size() > 0 && models_[m].landmarks > 0)
       own.sigma = models_[m].part_of(solution.sigma).mean();
-    own.in_view = best.in_view[m];
-    own.confirmed = best.confirmed[m];
     own.recognized = best.is_recognized(m);
+    const bool is_denied = own.probability < settings_.uncertain_above && !own.recognized;
+    const bool is_found = best.answers() && best.shown[m] && !is_denied;
+    const bool is_gone = recovers() && !is_found && departure_.is_gone(m, frame.time);
+    own.in_view = best.in_view[m] && !is_gone;
+    own.confirmed = best.confirmed[m];
     if (best.unseen[m] <= 0) models_[m].seen_time = frame.time;
     solution.models[m] = models_[m].status = models_[m].monitor.judge(own);
   }
@@ -556,6 +562,7 @@ void SceneTracker::go_on_from(const Frame& frame, const Candidate& best, const M
   }
   if (recovers() && finder_.search().tiles().visible_share(state_) == 0) state_ = kept_;
   if (!any(good)) return;
+  departure_.remember(state_, frame.time, good);
   time_ = frame.time;
   found_any_ = true;
   predictor_.add(state_, frame.time);
@@ -627,6 +634,7 @@ void SceneTracker::search_anew() {
   }
   if (!recovers()) found_any_ = false;
   looked_ = doubts_ = 0;
+  departure_.forget();
   finder_.search().remember(nullptr);
   predictor_.begin_anew();
   smoother_.begin_anew();

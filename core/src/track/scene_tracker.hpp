@@ -17,6 +17,7 @@
 #include "hypotrack/solution.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/color/photometric.hpp"
+#include "track/departure.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
 #include "track/given_start.hpp"
@@ -119,8 +120,10 @@ class SceneTracker {
   bool complete(const Frame& frame, Candidate& best);
   /// Looks whether detectors and pictures support the poses that the given start led to.
   void test_given_start(const Frame& frame, Candidate& best);
-  /// Searches for other poses of models which the search has taken away from the start.
-  void try_other_poses(const Frame& frame, const ModelFlags& left, Candidate& best);
+  /// Searches for other poses of a model which the search has taken away from the start.
+  void try_other_poses(const Frame& frame, std::size_t model, Candidate& best);
+  /// Returns whether pictures support all models where starts that recognise them see them.
+  bool is_agreed(const Candidate& best) const;
   /// Takes the model out of a candidate that has it in a wrong pose.
   void drop(std::size_t model, Candidate& best) const;
   /// Looks for a model in the pictures, as without a start. `why` goes to the user.
@@ -163,6 +166,7 @@ class SceneTracker {
   std::vector<ObjectiveTerm> terms_;  ///< for records
   StatusSettings settings_;
   GivenStart given_;
+  Departure departure_;
   CandidateFinder finder_;
   std::optional<PictureChecks> picture_checks_;
   SteadyBrightness brightness_;
