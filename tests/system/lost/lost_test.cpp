@@ -119,7 +119,7 @@ TEST(Lost, SaysThatTheHandIsAwayForHalfASecondAndFindsItInTheSamePlace) {
 
 TEST(Lost, SaysThatAHandHasLeftThePicturesThoughTheyShowItsColours) {
   const auto frames = track(
-      26, {"source.background={kind: procedural, seed: 4}",
+      26, {"source.frames=26", "source.background={kind: procedural, seed: 4}",
            "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
            " rotation_deg: [180, 0, 0]}}}, {frame: 4, gesture: open}, {frame: 20, gesture: open,"
            " pose: {hand: {position_mm: [900, 80, 500], rotation_deg: [180, 0, 0]}}}]"});
