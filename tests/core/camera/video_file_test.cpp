@@ -207,10 +207,13 @@ TEST_F(VideoFiles, DamagedPacketsOfAnyCodecAreMissingFramesAndMoveNoOthers) {
       if (i == 0 || (i > 3 && !key_frames)) continue;
       cv::Mat picture;
       const std::string problem = video->read(i, picture);
-      if (i == 3) EXPECT_THAT(problem, HasSubstr("the frame at 0.3"));
+      if (i == 3) {
+        EXPECT_THAT(problem, HasSubstr("the frame at 0.3"));
+      }
       EXPECT_EQ(picture.empty(), i == 3);
-      if (!picture.empty())
+      if (!picture.empty()) {
         EXPECT_NEAR(picture.at<cv::Vec3b>(20, 20)[0], first + step * static_cast<double>(i), 4);
+      }
     }
   }
 }
