@@ -51,7 +51,7 @@ TimedImage read_line(std::string_view line, const std::filesystem::path& folder,
   long double seconds = 0;  // holds all numbers of 19 digits
   const auto [stop, failure] = std::from_chars(line.data(), end, seconds);
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
-  const std::string_view name = trimmed(rest);
+  const std::string_view name = trimmed(rest, kBlank);
   const bool apart = !rest.empty() && kBlank.find(rest.front()) != std::string_view::npos;
   if (failure != std::errc{} || !(std::abs(seconds) <= kLatest) || !apart || name.empty()) {
     throw DataError(fmt::format(
@@ -73,7 +73,7 @@ std::vector<TimedImage> read_image_list(const std::filesystem::path& list) {
   int number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = trimmed(std::string_view(text).substr(begin, end - begin));
+    const std::string_view line = trimmed(std::string_view(text).substr(begin, end - begin), kBlank);
     begin = end + 1;
     ++number;
     if (line.empty() || line.front() == '#') continue;

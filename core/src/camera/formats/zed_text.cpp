@@ -43,10 +43,17 @@ std::string plain(std::string text) {
   return text;
 }
 
+/// Returns a section's name as TOML writes it: in quotes where that has to be.
+std::string table_name(const std::string& name) {
+  const bool bare = std::ranges::all_of(
+      name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; });
+  return bare ? name : fmt::format("\"{}\"", plain(name));
+}
+
 /// Returns a line of an INI file as one of TOML, whose texts are in quotes.
 std::string toml_line(std::string_view line) {
   if (const std::string_view section = section_in(line); !section.empty())
-    return fmt::format("[\"{}\"]", plain(usual_case(section)));
+    return fmt::format("[{}]", table_name(usual_case(section)));
   line = trimmed(line.substr(0, line.find_first_of(";#")));
   const std::size_t mark = line.find_first_of("=:");
   if (mark == line.npos) return std::string(line);  // empty, or an error with its place
