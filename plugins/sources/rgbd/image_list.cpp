@@ -73,7 +73,8 @@ std::vector<TimedImage> read_image_list(const std::filesystem::path& list) {
   int number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = trimmed(std::string_view(text).substr(begin, end - begin), kBlank);
+    const std::string_view line =
+        trimmed(std::string_view(text).substr(begin, end - begin), kBlank);
     begin = end + 1;
     ++number;
     if (line.empty() || line.front() == '#') continue;

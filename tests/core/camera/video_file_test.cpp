@@ -188,13 +188,12 @@ TEST_F(VideoFiles, DamagedFramesAreToldAndNotConcealed) {
   EXPECT_LE(problems.size(), 2);
 }
 
-TEST_F(VideoFiles, DamagedPacketsOfAnyCodecAreMissingFramesAndMoveNoOthers) {
-  for (const char* codec : {"libvpx-vp9", "libvpx", "mpeg4", "mjpeg", "libx264"}) {
+TEST_F(VideoFiles, DamagedPacketsAreMissingFramesAndMoveNoOthers) {
+  for (const char* codec : {"libvpx-vp9", "libvpx", "mpeg4", "mjpeg"}) {
     SCOPED_TRACE(codec);
-    const std::string name = std::string(codec) == "libx264" ? "a.mp4" : "a.mkv";
     test::VideoRecipe recipe{.codec = codec, .times = every(60, 8), .damaged = 3};
     if (recipe.codec == "mjpeg") recipe.pixels = AV_PIX_FMT_YUVJ420P;
-    const auto video = written(name, recipe);
+    const auto video = written("a.mkv", recipe);
     const bool key_frames = recipe.codec == "mjpeg";
     const double first = read(*video, 0).at<cv::Vec3b>(20, 20)[0];
     const double step = key_frames ? 10 : 10 * 255 / 219.0;
