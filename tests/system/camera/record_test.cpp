@@ -179,7 +179,8 @@ TEST_F(RecordTest, ARenderedSourceIsRecordedUntilASecond) {
 }
 
 TEST_F(RecordTest, ASourceWithoutUsableFramesLeavesNothing) {
-  const MjpegServer left(pictures("left")), right(pictures("right"));
+  // Servers keep the clock's time: without jitter pictures of both may arrive at once.
+  const MjpegServer left(pictures("left")), right(pictures("right"), {"--jitter", "0.01"});
   const std::string never = "  tolerance_ms: 0\n  timeout_s: 0.2\n";
   const Outcome outcome = record(live_scene(two_devices(left, right) + never), {"--frames", "2"});
   expect_refusal(outcome, {"the source gave no usable frame"});
