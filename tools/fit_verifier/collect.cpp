@@ -127,9 +127,8 @@ class Recoveries {
     if (!verifier_.experienced(model)) return {};
     std::vector<Recovered> out;
     search_->show(shown);
-    Recovery::Task task =
-        recovery_.begin(*search_, frame, verifier_, {kept, seconds}, model, shown, {});
-    recovery_.look(task, limits_);
+    const Recovery::Task task =
+        recovery_.begin(*search_, frame, verifier_, {kept, seconds}, model, shown, {}, limits_);
     std::vector<bool> moving(shown.size(), false);
     moving[model] = true;
     for (const PoseGuess& guess : task.guesses) {
