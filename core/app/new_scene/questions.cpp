@@ -10,7 +10,6 @@
 #include "tell.hpp"
 
 namespace hypotrack::app {
-namespace {}  // namespace
 
 void ask(const Question& question, const std::function<void(const std::string&)>& take) {
   if (isatty(STDIN_FILENO) != 1)

@@ -59,11 +59,10 @@ struct VideoParams {
        .unit = "ms",
        .to_si = 1e-3});
     v("color_matrix", colors.matrix,
-      {.help = "matrix of the colours, if the files say nothing or something wrong; default: what "
-               "they say, or as players assume bt709 for HD and bt601 for SD"});
+      {.help = "matrix of the colours; default: what the files say, or what players assume: bt709 "
+               "for HD, bt601 for SD"});
     v("color_range", colors.range,
-      {.help = "range of the samples, if the files say nothing or something wrong; default: what "
-               "they say, or limited"});
+      {.help = "range of the samples; default: what the files say, or limited"});
     truth.visit(v);
   }
 };
