@@ -59,6 +59,11 @@ HYPOTRACK_PIXEL F color_residual(F weight, F consistency, F share) {
   return sqrt(share * max(weight - consistency, F(0.0f)));
 }
 
+/// Pixels along the epipolar line, to either side of a point, over which slopes of residuals are
+/// differences: few, so that they are derivatives. Over half a pixel they lead off the minimum, and
+/// poses become 30 % worse.
+constexpr float kSlopeReach = 0.05f;
+
 /// Interpolates every channel: a + (b - a) t.
 template <class F>
 HYPOTRACK_PIXEL ColorSample<F> blend(const ColorSample<F>& a, const ColorSample<F>& b, F t) {

@@ -13,7 +13,6 @@ namespace hypotrack::stereo_color::HWY_NAMESPACE {
 template <bool kBilinear>
 struct SlopeWriter {
   static constexpr bool kVisitsUncovered = false;
-  static constexpr float kReach = 0.5f;  // pixels to either side
 
   const Features& left;
   const Features& right;
@@ -40,12 +39,12 @@ struct SlopeWriter {
     const auto motion = epipolar_motion(map, count_from(static_cast<float>(p.x)),
                                         Lanes(static_cast<float>(p.y)), p.inverse_depth, p.u, p.v);
     StereoPixels near = p, far = p;
-    near.u = mul_add(motion.along_u, Lanes(kReach), p.u);
-    near.v = mul_add(motion.along_v, Lanes(kReach), p.v);
-    far.u = mul_add(motion.along_u, Lanes(-kReach), p.u);
-    far.v = mul_add(motion.along_v, Lanes(-kReach), p.v);
+    near.u = mul_add(motion.along_u, Lanes(kSlopeReach), p.u);
+    near.v = mul_add(motion.along_v, Lanes(kSlopeReach), p.v);
+    far.u = mul_add(motion.along_u, Lanes(-kSlopeReach), p.u);
+    far.v = mul_add(motion.along_v, Lanes(-kSlopeReach), p.v);
     const Lanes slope = (residual<true>(here, near) - residual<true>(here, far)) * motion.speed *
-                        Lanes(0.5f / kReach);
+                        Lanes(0.5f / kSlopeReach);
     store(select(p.seen, slope, zero), p.pixels, slopes + at);
   }
   HYPOTRACK_PIXEL void end_row() {}

@@ -50,12 +50,12 @@ struct ColorTerm {
     return residual(features[view][i], 0.0f);
   }
 
-  /// Differences over half a pixel to either side along the epipolar line, as on the CPU.
+  /// Differences to either side along the epipolar line, as on the CPU.
   template <int kReference, class Texels>
   __device__ float slope(const cuda::StereoPixel& p, const StereoMap& map,
                          const Texels& texels) const {
     if (!p.seen) return 0.0f;
-    constexpr float kReach = 0.5f;
+    constexpr float kReach = scalar::kSlopeReach;
     const Texel here = texels.template at<kReference>(p.x, p.y);
     const auto there = [&](int x, int y) { return texels.template at<1 - kReference>(x, y); };
     const auto motion = hypotrack::scalar::epipolar_motion<float>(
