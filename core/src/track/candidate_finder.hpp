@@ -13,6 +13,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "track/frame_search.hpp"
 #include "track/recover/recovery.hpp"
+#include "track/sighting.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 #include "track/verify/pose_verifier.hpp"
@@ -108,6 +109,12 @@ class CandidateFinder {
 
   /// Returns whether any start recognises a model.
   bool recognizes(std::size_t model) const;
+  /// Returns how far apart two states have a model: metres, mean over its landmarks.
+  double distance(std::size_t model, const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  /// Returns how far a model is from where starts that recognise it see it (Sighting::distance());
+  /// nothing if none sees it, or if they are never to be asked (RecoverySettings::check is 0).
+  std::optional<double> seen_from(const Frame& frame, std::size_t model,
+                                  const Eigen::VectorXd& state) const;
   /// Returns whether the starts of the last recovery saw a sought model, all of them elsewhere.
   bool contradicted() const { return contradicted_; }
   /// Forgets how a model looks: its poses were wrong.
@@ -135,6 +142,15 @@ class CandidateFinder {
   std::optional<Candidate> with_model(const Frame& frame, const RecoveryRequest& request,
                                       const Candidate& base, Candidate& best, std::size_t model,
                                       const ModelFlags& held, std::uint64_t seed);
+  /// Returns whether starts see another model where a state has this one, and not this one.
+  bool is_of_another(std::size_t model, const Eigen::VectorXd& state) const;
+  /// Returns whether two models of candidates are at the same place.
+  bool is_same_place(const Candidate& a, std::size_t of_a, const Candidate& b,
+                     std::size_t of_b) const;
+  /// Returns the option that joins next: the most probable one. Of about equally probable ones at
+  /// the same place the one whose model has moved least. Options without a candidate do not count.
+  std::size_t best_option(const std::vector<std::optional<Candidate>>& options,
+                          const RecoveryRequest& request) const;
   /// Returns the lost models that the last sure state has in the hand of this one.
   ModelFlags lost_with(const RecoveryRequest& request, const Candidate& base,
                        std::size_t model) const;
@@ -161,6 +177,8 @@ class CandidateFinder {
   double believed_time_ = 0;      ///< time of that candidate
   int learned_ = 0;               ///< frames learned from
   bool contradicted_ = false;
+  std::vector<Sighting> sightings_;  ///< by model, in the frame of a recovery; empty: not
+                                     ///< asked for
 };
 
 }  // namespace internal
