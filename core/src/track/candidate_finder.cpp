@@ -57,6 +57,7 @@ Candidate CandidateFinder::verified(const Frame& frame, Found found) {
                 search_.shown(),
                 ModelFlags(models, true),
                 ModelFlags(models, false),
+                ModelFlags(models, false),
                 std::vector<double>(models, std::numeric_limits<double>::infinity())};
   if (settings_.evidence && out.answers())
     out.probabilities = verifier_.verify(frame, search_.drawn(out.found.state),
@@ -88,9 +89,12 @@ Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& star
     if (std::isnan(candidates.back().probability())) break;
   }
   Candidate best = candidates.size() == 1 ? candidates[0] : best_of(frame, candidates);
-  for (std::size_t m = 0; m < best.confirmed.size(); ++m)
+  for (std::size_t m = 0; m < best.confirmed.size(); ++m) {
     best.confirmed[m] = is_confirmed(candidates, best, m);
+    best.reproduced[m] = is_reproduced(candidates, best, m);
+  }
   best.found.evaluations = evaluations;
+  best.from_start = true;
   return best;
 }
 
@@ -208,11 +212,22 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
       apart.push_back(moved_in_hand(scene_, request.together, one.found.state, search.shown()));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
+  chosen.reproduced = base.reproduced;
+  chosen.from_start = base.from_start;
   chosen.unseen = base.unseen;
   chosen.unseen[model] = search.unseen(chosen.found.state);
   for (std::size_t m = 0; m < search.moving().size(); ++m)
     if (search.moving()[m]) chosen.confirmed[m] = is_confirmed(all, chosen, m);
   return chosen;
+}
+
+bool CandidateFinder::is_reproduced(const std::vector<Candidate>& all, const Candidate& chosen,
+                                    std::size_t model) const {
+  constexpr double kAbout = 0.01;  // metres
+  const auto is_about_there = [&](const Candidate& one) {
+    return distance(model, one.found.state, chosen.found.state) < kAbout;
+  };
+  return all.size() > 1 && 2 * std::ranges::count_if(all, is_about_there) >= std::ssize(all);
 }
 
 bool CandidateFinder::is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,

@@ -13,7 +13,8 @@ GivenStart::GivenStart(const Scene& scene, Eigen::VectorXd state, bool is_given)
     : scene_(scene),
       state_(std::move(state)),
       expected_(scene.items().size(), is_given),
-      noted_(scene.items().size(), false) {
+      noted_(scene.items().size(), false),
+      doubts_(scene.items().size()) {
   scene.normalize(state_);
 }
 
@@ -36,18 +37,26 @@ double GivenStart::doubted(double probability) {
   return probability / (probability + kOdds * (1 - probability));
 }
 
-void GivenStart::contradict(int frame, std::size_t model, const std::string& why) {
+void GivenStart::contradict(std::size_t model, const std::string& why) {
   expected_[model] = false;
-  note(frame, model, why + "; it is looked for in the pictures");
+  doubt(model, why);
 }
 
-void GivenStart::note(int frame, std::size_t model, const std::string& what) {
-  if (noted_[model]) return;
+void GivenStart::conclude(int frame, std::size_t model, const Eigen::VectorXd& state,
+                          bool is_found) {
+  const std::string why = std::exchange(doubts_[model], {});
+  if (why.empty() || noted_[model]) return;
+  std::string result = "it is looked for in the pictures";
+  if (is_found) {
+    const double away = distance(model, state);
+    if (away < kElsewhere) return;  // as far off as starts by hand are
+    result = fmt::format("it was found {:.0f} mm away (mean over the landmarks)", 1000 * away);
+  }
   noted_[model] = true;
   notes_.push_back(fmt::format(
-      "frame {}: the start (init) is not where '{}' is: {}. Is the start of another frame or "
-      "recording?",
-      frame, scene_.items()[model].name, what));
+      "frame {}: the start (init) {} where '{}' is: {}; {}. Is the start of another "
+      "frame or recording?",
+      frame, is_found ? "is not" : "may not be", scene_.items()[model].name, why, result));
 }
 
 std::vector<std::string> GivenStart::take_notes() { return std::exchange(notes_, {}); }

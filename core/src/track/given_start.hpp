@@ -32,14 +32,16 @@ class GivenStart {
   /// another posture.
   bool is_left(std::size_t model, const Eigen::VectorXd& found) const;
 
-  /// Returns the probability of a pose for which the search left the start, by that in the
-  /// pictures: a start of another moment leads to poses that look right.
+  /// Returns the probability of a pose that the start led to and that other searches did not
+  /// reproduce, by that in the pictures: a start of another moment leads to poses that look right.
   static double doubted(double probability);
 
-  /// Stops to expect a model at the start. `why` is a clause of the note to the user.
-  void contradict(int frame, std::size_t model, const std::string& why);
-  /// Tells the user that another pose was found near the start.
-  void note(int frame, std::size_t model, const std::string& what);
+  /// Remembers what speaks against the start. `why` is a clause of the note to the user.
+  void doubt(std::size_t model, const std::string& why) { doubts_[model] = why; }
+  /// Stops to expect a model at the start, for a reason as of doubt().
+  void contradict(std::size_t model, const std::string& why);
+  /// Notes doubts of this frame for the user, unless the model was surely found about at the start.
+  void conclude(int frame, std::size_t model, const Eigen::VectorXd& state, bool is_found);
 
   /// Returns the notes since the last call, one per model at most.
   std::vector<std::string> take_notes();
@@ -48,6 +50,7 @@ class GivenStart {
   const Scene& scene_;
   Eigen::VectorXd state_;
   std::vector<bool> expected_, noted_;  ///< by model
+  std::vector<std::string> doubts_;     ///< by model; empty: none
   std::vector<std::string> notes_;
 };
 

@@ -247,6 +247,7 @@ Candidate SceneTracker::follow(const Frame& frame) {
             .shown = models,
             .in_view = ModelFlags(models.size(), true),
             .confirmed = ModelFlags(models.size(), false),
+            .reproduced = ModelFlags(models.size(), false),
             .unseen = std::vector<double>(models.size(), kInfinite)};
   }
   finder_.search().show(models);
@@ -360,8 +361,8 @@ void SceneTracker::drop(std::size_t model, Candidate& best) const {
   if (!any(best.shown)) best.found.cost = kInfinite;
 }
 
-void SceneTracker::leave_start(const Frame& frame, std::size_t model, const std::string& why) {
-  given_.contradict(frame.index, model, why);
+void SceneTracker::leave_start(std::size_t model, const std::string& why) {
+  given_.contradict(model, why);
   models_[model].monitor.distrust_start();
 }
 
@@ -370,18 +371,23 @@ void SceneTracker::test_given_start(const Frame& frame, Candidate& best) {
     if (!awaits(m) || !best.answers() || !best.shown[m]) continue;
     const std::optional<double> apart = finder_.seen_from(frame, m, best.found.state);
     if (apart && *apart > kElsewhere) {
-      leave_start(frame, m,
+      leave_start(m,
                   fmt::format("a detector sees it {:.0f} mm (mean over the landmarks) from where "
                               "the search from the start ended",
                               1000 * *apart));
       drop(m, best);
     } else if (apart && *apart < kHere) {
       best.unseen[m] = 0;
-    } else if (best.probabilities[m] >= settings_.uncertain_above &&
-               given_.is_left(m, best.found.state)) {
+    } else if (is_doubtful(best, m)) {
       try_other_poses(frame, m, best);
     }
   }
+}
+
+bool SceneTracker::is_doubtful(const Candidate& best, std::size_t model) const {
+  return best.from_start && !best.reproduced[model] &&
+         best.probabilities[model] >= settings_.uncertain_above &&
+         given_.is_left(model, best.found.state);
 }
 
 void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candidate& best) {
@@ -403,17 +409,9 @@ void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candid
   const bool is_other = finder_.distance(model, before, best.found.state) > kHere;
   const double found = best.probabilities[model];
   if (!is_other && best.found.state != before) best.probabilities[model] = given_.doubted(found);
-  const double away = 1000 * given_.distance(model, best.found.state);
-  if (!(best.probabilities[model] >= settings_.surely_above))
-    leave_start(frame, model,
-                fmt::format("the pose that fits best nearby, {:.0f} mm away (mean over the "
-                            "landmarks), has the probability {:.2f}",
-                            away, found));
-  else if (is_other)
-    given_.note(frame.index, model,
-                fmt::format("another pose, {:.0f} mm away (mean over the landmarks), is likelier "
-                            "than that in which the search from the start ended",
-                            away));
+  const std::string why = "searches from around it end in different poses";
+  given_.doubt(model, why);
+  if (!(best.probabilities[model] >= settings_.surely_above)) leave_start(model, why);
 }
 
 void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
@@ -466,6 +464,7 @@ void SceneTracker::stay_lost(const Frame& frame, Solution& solution) {
     solution.models[m] = models_[m].status = models_[m].monitor.judge(
         {.cost = kInfinite, .in_view = !departure_.is_gone(m, frame.time)});
     extrapolate(m, frame.time, state_);
+    given_.conclude(frame.index, m, state_, false);
   }
   solution.status = Status::lost;
   widen(frame, solution);
@@ -531,7 +530,9 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
     own.in_view = best.in_view[m] && !is_gone;
     own.confirmed = best.confirmed[m];
     if (best.unseen[m] <= 0) models_[m].seen_time = frame.time;
-    solution.models[m] = models_[m].status = models_[m].monitor.judge(own);
+    const Status status = models_[m].status = models_[m].monitor.judge(own);
+    given_.conclude(frame.index, m, best.found.state, status == Status::tracked);
+    solution.models[m] = status;
   }
   solution.status = worst(solution.models);
 }

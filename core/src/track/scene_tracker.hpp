@@ -120,14 +120,17 @@ class SceneTracker {
   bool complete(const Frame& frame, Candidate& best);
   /// Looks whether detectors and pictures support the poses that the given start led to.
   void test_given_start(const Frame& frame, Candidate& best);
-  /// Searches for other poses of a model which the search has taken away from the start.
+  /// Returns whether the searches have left the start for a pose that few of them found.
+  bool is_doubtful(const Candidate& best, std::size_t model) const;
+  /// Compares a doubtful pose with others nearby that need no start. Looks for the model in the
+  /// whole pictures unless the best of them is surely right.
   void try_other_poses(const Frame& frame, std::size_t model, Candidate& best);
   /// Returns whether pictures support all models where starts that recognise them see them.
   bool is_agreed(const Candidate& best) const;
   /// Takes the model out of a candidate that has it in a wrong pose.
   void drop(std::size_t model, Candidate& best) const;
   /// Looks for a model in the pictures, as without a start. `why` goes to the user.
-  void leave_start(const Frame& frame, std::size_t model, const std::string& why);
+  void leave_start(std::size_t model, const std::string& why);
   /// Loses models of which the starts saw nothing where they are, but saw them elsewhere, in
   /// several checks.
   void doubt_contradicted(const ModelFlags& checked, Candidate& best);

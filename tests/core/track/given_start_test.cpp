@@ -28,8 +28,9 @@ TEST_F(GivenStartTest, IsLeftByPosesTooFarForASearchFromTheRightPosture) {
 }
 
 TEST_F(GivenStartTest, ExpectsAModelUntilItIsContradicted) {
+  start_.doubt(0, "a reason");
   EXPECT_TRUE(start_.expects(0) && start_.expects_any());
-  start_.contradict(7, 0, "a reason");
+  start_.contradict(0, "a reason");
   EXPECT_FALSE(start_.expects(0) || start_.expects_any());
 }
 
@@ -38,14 +39,31 @@ TEST_F(GivenStartTest, ExpectsNothingWhereNoneIsGiven) {
 }
 
 TEST_F(GivenStartTest, IsNotedOncePerModel) {
-  start_.contradict(7, 0, "a reason");
-  start_.note(8, 0, "another");
+  start_.contradict(0, "a reason");
+  start_.conclude(7, 0, {}, false);
+  start_.doubt(0, "another");
+  start_.conclude(8, 0, {}, false);
   const std::vector<std::string> notes = start_.take_notes();
   ASSERT_EQ(notes.size(), 1);
   EXPECT_EQ(notes[0],
-            "frame 7: the start (init) is not where 'hand' is: a reason; it is looked for in the "
-            "pictures. Is the start of another frame or recording?");
+            "frame 7: the start (init) may not be where 'hand' is: a reason; it is looked for in "
+            "the pictures. Is the start of another frame or recording?");
   EXPECT_TRUE(start_.take_notes().empty());
+}
+
+TEST_F(GivenStartTest, IsNotedWhereAModelIsFoundFartherThanAStartByHandIsOff) {
+  start_.doubt(0, "a reason");
+  start_.conclude(7, 0, moved_by(0.03), true);
+  EXPECT_TRUE(start_.take_notes().empty());
+  start_.conclude(8, 0, moved_by(0.06), true);
+  EXPECT_TRUE(start_.take_notes().empty()) << "the doubt was settled";
+  start_.doubt(0, "a reason");
+  start_.conclude(9, 0, moved_by(0.06), true);
+  const std::vector<std::string> notes = start_.take_notes();
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_EQ(notes[0],
+            "frame 9: the start (init) is not where 'hand' is: a reason; it was found 60 mm away "
+            "(mean over the landmarks). Is the start of another frame or recording?");
 }
 
 TEST(GivenStartOdds, FallSoThatOnlySurePosesAreBelieved) {

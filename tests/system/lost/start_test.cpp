@@ -353,6 +353,28 @@ TEST(GivenStart, OfAnotherMomentIsContradictedByADetector) {
   EXPECT_NE(notes[0].find("a detector sees it"), std::string::npos) << notes[0];
 }
 
+TEST(GivenStart, ThatIsCentimetresOffIsNotDoubted) {
+  constexpr std::int64_t kBudget = 400;
+  for (const char* away : {"10", "25"}) {
+    PluginLoader plugins;
+    const std::vector<std::string> overrides{
+        "evaluate.backend=cpu", "budget.evaluations=" + std::to_string(kBudget),
+        "init={from: truth, away_mm: " + std::string(away) + ", away_deg: 10}",
+        "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
+    OpenedScene session =
+        open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+    const Frame frame = session.source->next().value();
+    SceneTracker tracker(*session.scene, std::move(session.parts), initial_state(session, frame),
+                         session.seed);
+    const Solution solution = tracker.track(frame);
+    EXPECT_EQ(solution.status, Status::tracked) << away << " mm off";
+    EXPECT_LE(solution.evaluations, 8 * kBudget) << "more than the eight first searches";
+    const Eigen::Matrix3Xd truth = session.scene->landmarks(frame.truth->state);
+    EXPECT_LT((solution.landmarks - truth).colwise().norm().mean(), 0.005) << away << " mm off";
+    EXPECT_TRUE(tracker.take_notes().empty()) << away << " mm off";
+  }
+}
+
 TEST(LookedFor, TrackedModelsThatAStartSeesElsewhereMoveThere) {
   EXPECT_GT(last_error_of_a_believer(0), 0.05);
   EXPECT_LT(last_error_of_a_believer(0.1), 0.01);
