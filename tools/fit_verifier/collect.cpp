@@ -127,8 +127,9 @@ class Recoveries {
     if (!verifier_.experienced(model)) return {};
     std::vector<Recovered> out;
     search_->show(shown);
-    const Recovery::Task task =
-        recovery_.begin(*search_, frame, verifier_, {kept, seconds}, model, shown, {}, limits_);
+    Recovery::Task task =
+        recovery_.begin(*search_, frame, verifier_, {kept, seconds}, model, shown, {});
+    recovery_.look(task, limits_);
     std::vector<bool> moving(shown.size(), false);
     moving[model] = true;
     for (const PoseGuess& guess : task.guesses) {

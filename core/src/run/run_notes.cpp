@@ -23,8 +23,12 @@ void RunNotes::add_fault(const Solution& solution) {
     watcher_.say(fmt::format("note: frame {}: {}", solution.frame, describe(fault, view)));
 }
 
-/// Says if the pictures contradict what the first frame finds from a start that was given.
+/// Says if detectors or pictures contradict what is found from a start that was given.
 void RunNotes::look_at_start(const Solution& solution) {
+  for (const std::string& note : tracker_.take_notes()) {
+    watcher_.say("note: " + note);
+    start_said_ = true;
+  }
   if (solution.status == Status::missing || std::exchange(start_said_, true)) return;
   for (std::size_t m = 0; m < solution.models.size(); ++m) {
     const double probability = solution.probabilities[m];

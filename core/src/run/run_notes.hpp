@@ -17,7 +17,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 class RunNotes {
  public:
   /// `given_start`: whether the scene gives a start. `results` may be null. All must outlive it.
-  RunNotes(RunWatcher& watcher, const SceneTracker& tracker, bool given_start, PluginNotes& plugins,
+  RunNotes(RunWatcher& watcher, SceneTracker& tracker, bool given_start, PluginNotes& plugins,
            Results* results)
       : watcher_(watcher),
         tracker_(tracker),
@@ -40,7 +40,7 @@ class RunNotes {
   void look_at_outputs(const ClockTimes& clock);
 
   RunWatcher& watcher_;
-  const SceneTracker& tracker_;
+  SceneTracker& tracker_;
   PluginNotes& plugins_;
   Results* results_;
   std::set<std::pair<FrameFault, int>> faults_said_;

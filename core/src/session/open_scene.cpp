@@ -256,7 +256,8 @@ void Opening::start() {
     record_.set("init", resolved);
   }
   ConfigNode from = file_.tracker.recovery.from;
-  if (!from.defined() && parts.begins_by_looking) return;
+  const bool is_same = !from.defined() || (from.scalar() == kStartAuto && word == kStartAuto);
+  if (is_same && parts.begins_by_looking) return;
   if (!from.defined()) from = ConfigNode::parse("global_search", "the default of recovery.from");
   std::vector<YamlDocument> of_recovery;
   parts.starts = starts(from, of_recovery);

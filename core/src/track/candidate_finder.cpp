@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/displace.hpp"
 #include "track/model_search.hpp"
@@ -14,6 +13,9 @@ namespace {
 
 // Ratio of odds below which candidates count as equally probable; their costs decide then.
 constexpr double kAlike = 2.3;
+// Distance, in metres, up to which the centres of two models are at the same place: two hands of a
+// scene can hardly be nearer.
+constexpr double kSamePlace = 0.05;
 // Time constant, in seconds, with which the belief in a hidden model decays.
 constexpr double kForgotten = 0.6;
 
@@ -55,6 +57,7 @@ Candidate CandidateFinder::verified(const Frame& frame, Found found) {
                 search_.shown(),
                 ModelFlags(models, true),
                 ModelFlags(models, false),
+                ModelFlags(models, false),
                 std::vector<double>(models, std::numeric_limits<double>::infinity())};
   if (settings_.evidence && out.answers())
     out.probabilities = verifier_.verify(frame, search_.drawn(out.found.state),
@@ -86,9 +89,12 @@ Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& star
     if (std::isnan(candidates.back().probability())) break;
   }
   Candidate best = candidates.size() == 1 ? candidates[0] : best_of(frame, candidates);
-  for (std::size_t m = 0; m < best.confirmed.size(); ++m)
+  for (std::size_t m = 0; m < best.confirmed.size(); ++m) {
     best.confirmed[m] = is_confirmed(candidates, best, m);
+    best.reproduced[m] = is_reproduced(candidates, best, m);
+  }
   best.found.evaluations = evaluations;
+  best.from_start = true;
   return best;
 }
 
@@ -206,11 +212,22 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
       apart.push_back(moved_in_hand(scene_, request.together, one.found.state, search.shown()));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
+  chosen.reproduced = base.reproduced;
+  chosen.from_start = base.from_start;
   chosen.unseen = base.unseen;
   chosen.unseen[model] = search.unseen(chosen.found.state);
   for (std::size_t m = 0; m < search.moving().size(); ++m)
     if (search.moving()[m]) chosen.confirmed[m] = is_confirmed(all, chosen, m);
   return chosen;
+}
+
+bool CandidateFinder::is_reproduced(const std::vector<Candidate>& all, const Candidate& chosen,
+                                    std::size_t model) const {
+  constexpr double kAbout = 0.01;  // metres
+  const auto is_about_there = [&](const Candidate& one) {
+    return distance(model, one.found.state, chosen.found.state) < kAbout;
+  };
+  return all.size() > 1 && 2 * std::ranges::count_if(all, is_about_there) >= std::ssize(all);
 }
 
 bool CandidateFinder::is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,
@@ -229,12 +246,8 @@ bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size
 }
 
 bool CandidateFinder::is_same(const Candidate& a, const Candidate& b, std::size_t model) const {
-  constexpr double kSame = 0.006;  // metres, mean over landmarks
-  const Scene::Item& item = scene_.items()[model];
-  const auto landmarks = [&](const Candidate& one) {
-    return posed_landmarks(*item.model, scene_.part(item, one.found.state));
-  };
-  return (landmarks(a) - landmarks(b)).colwise().norm().mean() < kSame;
+  constexpr double kSame = 0.006;  // metres
+  return distance(model, a.found.state, b.found.state) < kSame;
 }
 
 ModelFlags CandidateFinder::lost_with(const RecoveryRequest& request, const Candidate& base,
@@ -257,13 +270,76 @@ bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
   return true;
 }
 
+bool CandidateFinder::is_of_another(std::size_t model, const Eigen::VectorXd& state) const {
+  if (sightings_.empty() || !sightings_[model].asked) return false;
+  const Eigen::Vector3d here = recovery_.search(model).center(state);
+  const auto is_seen = [&](std::size_t other) {
+    const Scene::Item& item = scene_.items()[other];
+    return std::ranges::any_of(sightings_[other].poses, [&](const Eigen::VectorXd& pose) {
+      return (landmark_center(*item.model, pose) - here).norm() < kSamePlace;
+    });
+  };
+  if (is_seen(model)) return false;
+  for (std::size_t m = 0; m < sightings_.size(); ++m)
+    if (m != model && is_seen(m)) return true;
+  return false;
+}
+
+bool CandidateFinder::is_same_place(const Candidate& a, std::size_t of_a, const Candidate& b,
+                                    std::size_t of_b) const {
+  return (recovery_.search(of_a).center(a.found.state) -
+          recovery_.search(of_b).center(b.found.state))
+             .norm() < kSamePlace;
+}
+
+std::size_t CandidateFinder::best_option(const std::vector<std::optional<Candidate>>& options,
+                                         const RecoveryRequest& request) const {
+  std::size_t best = 0;
+  const auto probability = [&](std::size_t m) {
+    return options[m] && options[m]->probabilities[m] >= 0 ? options[m]->probabilities[m] : -1;
+  };
+  const auto moved = [&](std::size_t m) {
+    return (recovery_.search(m).center(options[m]->found.state) -
+            recovery_.search(m).center(request.kept))
+        .norm();
+  };
+  for (std::size_t m = 1; m < options.size(); ++m)
+    if (probability(m) > probability(best) || !options[best]) best = m;
+  const std::size_t likeliest = best;
+  if (!options[likeliest] || !std::isfinite(request.seconds[likeliest])) return likeliest;
+  for (std::size_t m = 0; m < options.size(); ++m)
+    if (m != best && options[m] && std::isfinite(request.seconds[m]) &&
+        probability(m) >= as_likely(probability(likeliest)) &&
+        is_same_place(*options[m], m, *options[likeliest], likeliest) && moved(m) < moved(best))
+      best = m;
+  return best;
+}
+
 bool CandidateFinder::recognizes(std::size_t model) const {
   return std::ranges::any_of(starts_, [&](const auto& start) { return start->recognizes(model); });
+}
+
+double CandidateFinder::distance(std::size_t model, const Eigen::VectorXd& a,
+                                 const Eigen::VectorXd& b) const {
+  const Scene::Item& item = scene_.items()[model];
+  return landmark_distance(*item.model, scene_.part(item, a), scene_.part(item, b));
+}
+
+std::optional<double> CandidateFinder::seen_from(const Frame& frame, std::size_t model,
+                                                 const Eigen::VectorXd& state) const {
+  if (settings_.recovery.check == 0) return std::nullopt;
+  const Scene::Item& item = scene_.items()[model];
+  return sighting(starts_, scene_, cameras_, frame, model)
+      .distance(*item.model, scene_.part(item, state));
 }
 
 void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request, Candidate& best,
                               std::uint64_t seed) {
   contradicted_ = false;
+  sightings_.clear();
+  if (scene_.items().size() > 1 && !request.near_only)
+    for (std::size_t m = 0; m < scene_.items().size(); ++m)
+      sightings_.push_back(sighting(starts_, scene_, cameras_, frame, m));
   Candidate base = best;
   for (std::size_t m = 0; m < request.sought.size(); ++m)
     if (request.sought[m]) {
@@ -274,20 +350,18 @@ void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request
   ModelFlags left = request.sought;
   std::uint32_t part = 0;
   while (any(left)) {
-    std::optional<Candidate> chosen;
-    std::size_t joins = 0;
+    std::vector<std::optional<Candidate>> options(left.size());
     for (std::size_t m = 0; m < left.size(); ++m) {
       if (!left[m]) continue;
-      std::optional<Candidate> one;
+      std::optional<Candidate>& one = options[m];
       const ModelFlags held = lost_with(request, base, m);
       if (any(held))
         one = with_model(frame, request, base, best, m, held, seed_of_part(seed, ++part));
       if (!one || !(one->probability() >= settings_.uncertain_above))
         one = with_model(frame, request, base, best, m, {}, seed_of_part(seed, ++part));
-      if (!one || (chosen && !(one->probabilities[m] > chosen->probabilities[joins]))) continue;
-      chosen = std::move(one);
-      joins = m;
     }
+    const std::size_t joins = best_option(options, request);
+    std::optional<Candidate>& chosen = options[joins];
     // With nothing else found, a poor candidate still reports its probability.
     if (!chosen || (any(base.shown) && !may_join(*chosen, base, request, joins))) break;
     base = std::move(*chosen);

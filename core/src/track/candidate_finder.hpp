@@ -13,6 +13,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "track/frame_search.hpp"
 #include "track/recover/recovery.hpp"
+#include "track/sighting.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 #include "track/verify/pose_verifier.hpp"
@@ -43,8 +44,10 @@ struct Candidate {
                             ///< are meaningless
   ModelFlags in_view = {};  ///< false: a search of the whole pictures did not find the model
   ModelFlags confirmed = {};        ///< searches from other starts ended in the same pose
+  ModelFlags reproduced = {};       ///< at least half of several searches ended in about this pose
   std::vector<double> unseen = {};  ///< seconds since a start that recognises the model saw it
                                     ///< about there; infinite: it never did
+  bool from_start = false;          ///< the searches began at a start, not at an earlier solution
 
   bool answers() const { return std::isfinite(found.cost); }
   /// Returns the smallest probability of the models shown; NaN if none is known.
@@ -108,6 +111,12 @@ class CandidateFinder {
 
   /// Returns whether any start recognises a model.
   bool recognizes(std::size_t model) const;
+  /// Returns how far apart two states have a model: metres, mean over its landmarks.
+  double distance(std::size_t model, const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  /// Returns how far a model is from where starts that recognise it see it (Sighting::distance());
+  /// nothing if none sees it, or if they are never to be asked (RecoverySettings::check is 0).
+  std::optional<double> seen_from(const Frame& frame, std::size_t model,
+                                  const Eigen::VectorXd& state) const;
   /// Returns whether the starts of the last recovery saw a sought model, all of them elsewhere.
   bool contradicted() const { return contradicted_; }
   /// Forgets how a model looks: its poses were wrong.
@@ -135,11 +144,24 @@ class CandidateFinder {
   std::optional<Candidate> with_model(const Frame& frame, const RecoveryRequest& request,
                                       const Candidate& base, Candidate& best, std::size_t model,
                                       const ModelFlags& held, std::uint64_t seed);
+  /// Returns whether starts see another model where a state has this one, and not this one.
+  bool is_of_another(std::size_t model, const Eigen::VectorXd& state) const;
+  /// Returns whether two models of candidates are at the same place.
+  bool is_same_place(const Candidate& a, std::size_t of_a, const Candidate& b,
+                     std::size_t of_b) const;
+  /// Returns the option that joins next: the most probable one. Of about equally probable ones at
+  /// the same place the one whose model has moved least. Options without a candidate do not count.
+  std::size_t best_option(const std::vector<std::optional<Candidate>>& options,
+                          const RecoveryRequest& request) const;
   /// Returns the lost models that the last sure state has in the hand of this one.
   ModelFlags lost_with(const RecoveryRequest& request, const Candidate& base,
                        std::size_t model) const;
   /// Returns whether two candidates have a model in the same pose.
   bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
+  /// Returns whether at least half of several candidates have a model about where the chosen one
+  /// has it. From a wrong posture searches end in different poses.
+  bool is_reproduced(const std::vector<Candidate>& all, const Candidate& chosen,
+                     std::size_t model) const;
   /// Returns whether another candidate has a model in the same pose as the chosen one.
   bool is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,
                     std::size_t model) const;
@@ -161,6 +183,8 @@ class CandidateFinder {
   double believed_time_ = 0;      ///< time of that candidate
   int learned_ = 0;               ///< frames learned from
   bool contradicted_ = false;
+  std::vector<Sighting> sightings_;  ///< by model, in the frame of a recovery; empty: not
+                                     ///< asked for
 };
 
 }  // namespace internal

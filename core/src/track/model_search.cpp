@@ -1,17 +1,15 @@
 #include "track/model_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <utility>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/recover/held_models.hpp"
+#include "track/sighting.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -19,9 +17,8 @@ namespace {
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
 // search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
-// Distance (mean over landmarks, metres) up to which a start sees a model where a pose has it, and
-// beyond which it contradicts a tracked pose.
-constexpr double kHere = 0.025, kElsewhere = 0.04;
+// Places that are searched although a start that recognises the model sees it nowhere.
+constexpr std::size_t kDeniedPlaces = 2;
 constexpr std::size_t kAllPlaces = std::numeric_limits<std::size_t>::max();
 
 /// Lends a tracker's global search to its starts.
@@ -36,17 +33,6 @@ class LentSearch final : public GlobalSearch {
  private:
   Search search_;
 };
-
-/// Throws PluginError unless a start proposes a pose of the model.
-void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) {
-  const Eigen::Index size = item.model->dimension();
-  if (parameters.size() != size || !parameters.allFinite() ||
-      std::abs(parameters.segment<4>(3).norm() - 1) > 1e-6)
-    throw PluginError(
-        fmt::format("a start proposes a pose of '{}' with {} parameters; expected {} finite ones "
-                    "and a unit quaternion; this is a bug in the start",
-                    item.name, parameters.size(), size));
-}
 
 /// Returns settings whose zeros are replaced by those of recoveries.
 GlobalSearchSettings with_defaults(GlobalSearchSettings settings, const RecoverySettings& usual) {
@@ -74,7 +60,7 @@ CandidateFinder::ModelSearch::ModelSearch(CandidateFinder& finder, const Frame& 
       shown_(base.shown),
       moving_(base.shown.size(), false),
       task_(finder.recovery_.begin(finder.search_, frame, finder.verifier_, last_known(), model,
-                                   base.shown, held, finder.settings_.motion)) {
+                                   base.shown, held)) {
   best.in_view[model] = task_.in_view;
   shown_[model] = moving_[model] = true;
   for (std::size_t m = 0; m < held.size(); ++m)
@@ -161,6 +147,7 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   if (!may_be_anywhere && !is_within(finder_.scene_, reach, request_.kept,
                                      with_own_part(request_.kept, one.found.state)))
     return;
+  if (finder_.is_of_another(model_, one.found.state)) return;
   sure_ = sure_ || one.is_sure();
   found_.push_back(std::move(one));
 }
@@ -168,6 +155,8 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
 template <class Take>
 void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& effort,
                                                  std::size_t most, const Take& take) {
+  finder_.recovery_.look(task_, finder_.settings_.motion);
+  best_.in_view[model_] = task_.in_view;
   for (const PoseGuess& guess : task_.guesses) {
     if (enough() || most-- == 0) return;
     const Candidates places = finder_.recovery_.find(task_, guess, effort, finder_.settings_.motion,
@@ -182,10 +171,7 @@ void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& eff
 
 double CandidateFinder::ModelSearch::distance(const Eigen::VectorXd& a,
                                               const Eigen::VectorXd& b) const {
-  const auto landmarks = [&](const Eigen::VectorXd& of) {
-    return posed_landmarks(*item_.model, finder_.scene_.part(item_, of));
-  };
-  return (landmarks(a) - landmarks(b)).colwise().norm().mean();
+  return finder_.distance(model_, a, b);
 }
 
 double CandidateFinder::ModelSearch::unseen(const Eigen::VectorXd& state) const {
@@ -203,9 +189,10 @@ bool CandidateFinder::ModelSearch::is_known(const Eigen::VectorXd& state) const 
 CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start, bool denied,
                                                                           bool may_search) {
   LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
-    const RecoverySettings& usual = finder_.settings_.recovery;
-    if (denied) effort = with_defaults(effort, usual);
-    const std::size_t most = denied ? static_cast<std::size_t>(usual.places) : kAllPlaces;
+    // Where a start sees the model, its pose is about known; where one denies it, it hardly is
+    // there.
+    if (denied || !recognized_.empty()) effort = with_defaults(effort, finder_.settings_.recovery);
+    const std::size_t most = denied ? kDeniedPlaces : kAllPlaces;
     search_places(effort, most, [&](const Eigen::VectorXd& state) {
       offer(state.segment(item_.offset, item_.model->dimension()));
     });
@@ -231,6 +218,7 @@ void CandidateFinder::ModelSearch::search_only_near(const std::vector<Eigen::Vec
   constexpr std::size_t kMost = 2;
   constexpr double kNearShare = 0.5, kTurn = 0.5, kScatter = 0.015;  // radians, metres
   task_.guesses.clear();
+  task_.looked = true;
   for (std::size_t i = 0; i < std::min(kMost, states.size()); ++i)
     task_.guesses.push_back(
         {.center =

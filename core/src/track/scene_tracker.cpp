@@ -14,6 +14,7 @@
 #include "hypotrack/search.hpp"
 #include "plugin/plugin_call.hpp"
 #include "track/faults/fault_text.hpp"
+#include "track/sighting.hpp"
 #include "track/tangent.hpp"
 #include "track/term_maps.hpp"
 
@@ -110,8 +111,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
     : scene_(scene),
       terms_(parts.objective),
       settings_(of_pictures(parts.status, parts.objective)),
-      first_(std::move(start)),
-      begins_by_looking_(parts.begins_by_looking),
+      given_(scene, std::move(start), !parts.begins_by_looking),
+      departure_(scene, parts.cameras),
       finder_(scene, parts, settings_),
       predictor_(scene, parts.search.prediction),
       smoother_(scene, parts.one_euro),
@@ -119,24 +120,22 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       seed_(seed) {
   if (settings_.check_pictures && look_at_pictures(terms_))
     picture_checks_.emplace(parts.cameras, joined_use(terms_).depth);
-  if (begins_by_looking_ && !recovers())
+  if (parts.begins_by_looking && !recovers())
     throw ConfigError(
         "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, "
         "tracker.evidence and an objective that compares pictures; give a start, for example "
         "`init: {pose: ...}`");
-  if (begins_by_looking_ && parts.cameras.size() < 2)
+  if (parts.begins_by_looking && parts.cameras.size() < 2)
     throw ConfigError(
         "init.from looks for the models in two views, and the source has one; give a start, for "
         "example `init: {pose: ...}`");
-  StatusSettings judged = parts.status;
-  if (begins_by_looking_) judged.first_above = judged.tracked_above;
   Eigen::Index landmarks = 0;
   for (const Scene::Item& item : scene.items()) {
-    models_.emplace_back(judged, landmarks, std::ssize(item.model->data().landmarks));
+    models_.emplace_back(parts.status, landmarks, std::ssize(item.model->data().landmarks));
+    if (parts.begins_by_looking) models_.back().monitor.expect_no_start();
     landmarks += models_.back().landmarks;
   }
-  scene.normalize(first_);
-  state_ = kept_ = together_ = output_ = first_;
+  state_ = kept_ = together_ = output_ = given_.state();
   if (parts.fixed_lag.enabled) reserve_for(parts.fixed_lag, finder_.budget());
   if (settings_.uncertainty.enabled)
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), finder_.budget());
@@ -235,10 +234,10 @@ void SceneTracker::describe(const Frame& frame, const Candidate& best, SearchRec
 
 Candidate SceneTracker::follow(const Frame& frame) {
   const std::uint64_t seed = frame_seed(seed_, frame.index);
-  if (!found_any_ && !begins_by_looking_) {
+  if (!found_any_ && given_.expects_any()) {
     const bool several = recovers() && begun_ < kPatientFrames;
     Candidate best =
-        finder_.begin(frame, first_, several ? settings_.recovery.first_starts : 1, seed);
+        finder_.begin(frame, given_.state(), several ? settings_.recovery.first_starts : 1, seed);
     ++begun_;
     return best;
   }
@@ -248,6 +247,7 @@ Candidate SceneTracker::follow(const Frame& frame) {
             .shown = models,
             .in_view = ModelFlags(models.size(), true),
             .confirmed = ModelFlags(models.size(), false),
+            .reproduced = ModelFlags(models.size(), false),
             .unseen = std::vector<double>(models.size(), kInfinite)};
   }
   finder_.search().show(models);
@@ -257,10 +257,10 @@ Candidate SceneTracker::follow(const Frame& frame) {
   if (recovers()) reach = reach_within(settings_.motion, frame.time - time_);
   Candidate best = finder_.follow(frame, possible_starts(frame.time), models, budget, reach, seed);
   // The models may still come to the start that was given.
-  if (recovers() && !begins_by_looking_ && !finder_.verifier().experienced() &&
+  if (recovers() && given_.expects_any() && !finder_.verifier().experienced() &&
       best.probability() < settings_.uncertain_above) {
     const bool several = begun_++ % kSeveralAgain == 0;
-    if (finder_.begin_again(frame, first_, several ? settings_.recovery.first_starts : 1,
+    if (finder_.begin_again(frame, given_.state(), several ? settings_.recovery.first_starts : 1,
                             seed_of_part(seed, 9), best)) {
       predictor_.begin_anew();
       smoother_.begin_anew();
@@ -310,6 +310,7 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
 
 bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   if (!recovers() || (best.answers() && std::isnan(best.probability()))) return true;
+  test_given_start(frame, best);
   const RecoveryRequest request = recovery_request(frame, best);
   if (!any(request.sought)) return true;
   if (settings_.recovery.run == RecoveryRun::background && !request.contradicts) {
@@ -326,11 +327,17 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   finder_.recover(frame, request, best, seed_of_part(seed, 7));
   if (request.contradicts) doubt_contradicted(request.sought, best);
   // From here on it is as if this pose had been given as the start.
-  if (begins_by_looking_ && !finder_.verifier().experienced() &&
+  if (!given_.expects_any() && !finder_.verifier().experienced() &&
       std::ranges::find(best.shown, false) == best.shown.end() &&
-      best.probability() >= settings_.uncertain_above && !best.is_sure())
+      best.probability() >= settings_.uncertain_above && !best.is_sure() && !is_agreed(best))
     finder_.begin_again(frame, best.found.state, settings_.recovery.first_starts,
                         seed_of_part(seed, 8), best);
+  return true;
+}
+
+bool SceneTracker::is_agreed(const Candidate& best) const {
+  for (std::size_t m = 0; m < models_.size(); ++m)
+    if (!(best.unseen[m] <= 0 && best.probabilities[m] >= settings_.tracked_above)) return false;
   return true;
 }
 
@@ -340,13 +347,71 @@ void SceneTracker::doubt_contradicted(const ModelFlags& checked, Candidate& best
     if (!checked[m]) continue;
     int& contradictions = models_[m].contradictions;
     contradictions = finder_.contradicted() ? contradictions + 1 : 0;
-    if (contradictions < kMost || !begins_by_looking_) continue;
+    if (contradictions < kMost || given_.expects(m)) continue;
     contradictions = 0;
     finder_.forget(m);
-    best.shown[m] = false;
-    best.probabilities[m] = 0;
-    if (!any(best.shown)) best.found.cost = kInfinite;
+    drop(m, best);
   }
+}
+
+void SceneTracker::drop(std::size_t model, Candidate& best) const {
+  best.shown[model] = false;
+  best.probabilities[model] = 0;
+  best.unseen[model] = kInfinite;
+  if (!any(best.shown)) best.found.cost = kInfinite;
+}
+
+void SceneTracker::leave_start(std::size_t model, const std::string& why) {
+  given_.contradict(model, why);
+  models_[model].monitor.distrust_start();
+}
+
+void SceneTracker::test_given_start(const Frame& frame, Candidate& best) {
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    if (!awaits(m) || !best.answers() || !best.shown[m]) continue;
+    const std::optional<double> apart = finder_.seen_from(frame, m, best.found.state);
+    if (apart && *apart > kElsewhere) {
+      leave_start(m,
+                  fmt::format("a detector sees it {:.0f} mm (mean over the landmarks) from where "
+                              "the search from the start ended",
+                              1000 * *apart));
+      drop(m, best);
+    } else if (apart && *apart < kHere) {
+      best.unseen[m] = 0;
+    } else if (is_doubtful(best, m)) {
+      try_other_poses(frame, m, best);
+    }
+  }
+}
+
+bool SceneTracker::is_doubtful(const Candidate& best, std::size_t model) const {
+  return best.from_start && !best.reproduced[model] &&
+         best.probabilities[model] >= settings_.uncertain_above &&
+         given_.is_left(model, best.found.state);
+}
+
+void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candidate& best) {
+  constexpr double kAgo = 1;  // seconds since the models were as the start has them
+  const std::size_t count = models_.size();
+  const Eigen::VectorXd before = best.found.state;
+  best.probabilities[model] = given_.doubted(best.probabilities[model]);
+  RecoveryRequest request{.kept = given_.state(),
+                          .together = {},
+                          .seconds = std::vector<double>(count, kAgo),
+                          .unseen = std::vector<double>(count, kInfinite),
+                          .sought = ModelFlags(count, false),
+                          .thorough = ModelFlags(count, false),
+                          .near_only = true};
+  request.sought[model] = true;
+  for (const ModelTrack& one : models_) request.needed.push_back(one.monitor.needed());
+  const auto part = static_cast<std::uint32_t>(200 + model);
+  finder_.recover(frame, request, best, seed_of_part(frame_seed(seed_, frame.index), part));
+  const bool is_other = finder_.distance(model, before, best.found.state) > kHere;
+  const double found = best.probabilities[model];
+  if (!is_other && best.found.state != before) best.probabilities[model] = given_.doubted(found);
+  const std::string why = "searches from around it end in different poses";
+  given_.doubt(model, why);
+  if (!(best.probabilities[model] >= settings_.surely_above)) leave_start(model, why);
 }
 
 void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
@@ -396,8 +461,10 @@ void SceneTracker::wait_for_job(const Frame& frame, Solution& solution) {
 
 void SceneTracker::stay_lost(const Frame& frame, Solution& solution) {
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    solution.models[m] = models_[m].status = models_[m].monitor.judge({.cost = kInfinite});
+    solution.models[m] = models_[m].status = models_[m].monitor.judge(
+        {.cost = kInfinite, .in_view = !departure_.is_gone(m, frame.time)});
     extrapolate(m, frame.time, state_);
+    given_.conclude(frame.index, m, state_, false);
   }
   solution.status = Status::lost;
   widen(frame, solution);
@@ -456,11 +523,16 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
     own.probability = best.probabilities[m];
     if (solution.sigma.size() > 0 && models_[m].landmarks > 0)
       own.sigma = models_[m].part_of(solution.sigma).mean();
-    own.in_view = best.in_view[m];
-    own.confirmed = best.confirmed[m];
     own.recognized = best.is_recognized(m);
+    const bool is_denied = own.probability < settings_.uncertain_above && !own.recognized;
+    const bool is_found = best.answers() && best.shown[m] && !is_denied;
+    const bool is_gone = recovers() && !is_found && departure_.is_gone(m, frame.time);
+    own.in_view = best.in_view[m] && !is_gone;
+    own.confirmed = best.confirmed[m];
     if (best.unseen[m] <= 0) models_[m].seen_time = frame.time;
-    solution.models[m] = models_[m].status = models_[m].monitor.judge(own);
+    const Status status = models_[m].status = models_[m].monitor.judge(own);
+    given_.conclude(frame.index, m, best.found.state, status == Status::tracked);
+    solution.models[m] = status;
   }
   solution.status = worst(solution.models);
 }
@@ -491,6 +563,7 @@ void SceneTracker::go_on_from(const Frame& frame, const Candidate& best, const M
   }
   if (recovers() && finder_.search().tiles().visible_share(state_) == 0) state_ = kept_;
   if (!any(good)) return;
+  departure_.remember(state_, frame.time, good);
   time_ = frame.time;
   found_any_ = true;
   predictor_.add(state_, frame.time);
@@ -558,10 +631,11 @@ void SceneTracker::search_anew() {
     model.confirmations = kConfirmations;
     model.contradictions = 0;
     model.velocity.resize(0);
-    if (begins_by_looking_) finder_.forget(m);
+    if (!given_.expects(m)) finder_.forget(m);
   }
   if (!recovers()) found_any_ = false;
   looked_ = doubts_ = 0;
+  departure_.forget();
   finder_.search().remember(nullptr);
   predictor_.begin_anew();
   smoother_.begin_anew();
@@ -578,7 +652,7 @@ std::string SceneTracker::problem_of_start(const Frame& frame) const {
   constexpr const char* kQuestion =
       "is the start (init) where the models are, and do the cameras and their units (calibration) "
       "belong to the pictures?";
-  if (begins_by_looking_) return {};
+  if (!given_.expects_any()) return {};
   const double visible = finder_.search().tiles().visible_share(state_);
   if (visible < settings_.min_visible)
     return fmt::format(

@@ -17,8 +17,10 @@
 #include "hypotrack/solution.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/color/photometric.hpp"
+#include "track/departure.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
+#include "track/given_start.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
@@ -63,6 +65,9 @@ class SceneTracker {
   /// Returns a warning if frames like this one would count as lost or uncertain at the start; empty
   /// otherwise. The frame must be usable.
   std::string problem_of_start(const Frame& frame) const;
+
+  /// Returns what the user should know of the start that was given, since the last call.
+  std::vector<std::string> take_notes() { return given_.take_notes(); }
 
   /// Returns the tiles that the search of `frame`, the last one tracked, saw; with the highlights.
   Observation seen(const Frame& frame) const;
@@ -113,6 +118,19 @@ class SceneTracker {
   /// if the settings say so and no model can be followed. Returns false then: the frame has no
   /// result.
   bool complete(const Frame& frame, Candidate& best);
+  /// Looks whether detectors and pictures support the poses that the given start led to.
+  void test_given_start(const Frame& frame, Candidate& best);
+  /// Returns whether the searches have left the start for a pose that few of them found.
+  bool is_doubtful(const Candidate& best, std::size_t model) const;
+  /// Compares a doubtful pose with others nearby that need no start. Looks for the model in the
+  /// whole pictures unless the best of them is surely right.
+  void try_other_poses(const Frame& frame, std::size_t model, Candidate& best);
+  /// Returns whether pictures support all models where starts that recognise them see them.
+  bool is_agreed(const Candidate& best) const;
+  /// Takes the model out of a candidate that has it in a wrong pose.
+  void drop(std::size_t model, Candidate& best) const;
+  /// Looks for a model in the pictures, as without a start. `why` goes to the user.
+  void leave_start(std::size_t model, const std::string& why);
   /// Loses models of which the starts saw nothing where they are, but saw them elsewhere, in
   /// several checks.
   void doubt_contradicted(const ModelFlags& checked, Candidate& best);
@@ -129,11 +147,11 @@ class SceneTracker {
   bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
   /// Returns whether a model that was never surely found is looked for in pictures.
   bool looks_for(std::size_t model) const {
-    return begins_by_looking_ && !finder_.verifier().experienced(model);
+    return !given_.expects(model) && !finder_.verifier().experienced(model);
   }
   /// Returns whether a model that was never surely found is awaited at the start that was given.
   bool awaits(std::size_t model) const {
-    return !begins_by_looking_ && !finder_.verifier().experienced(model);
+    return given_.expects(model) && !finder_.verifier().experienced(model);
   }
   ModelFlags followed() const;
   /// Returns states from which the search of a frame may start. The middle one, which is in view,
@@ -150,8 +168,8 @@ class SceneTracker {
   const Scene& scene_;
   std::vector<ObjectiveTerm> terms_;  ///< for records
   StatusSettings settings_;
-  Eigen::VectorXd first_;   ///< start of the first search
-  bool begins_by_looking_;  ///< `first_` is any state in view: the models are looked for
+  GivenStart given_;
+  Departure departure_;
   CandidateFinder finder_;
   std::optional<PictureChecks> picture_checks_;
   SteadyBrightness brightness_;

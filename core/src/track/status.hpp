@@ -113,6 +113,11 @@ class StatusMonitor {
     return steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
   }
 
+  /// Asks of the first pose what is asked of later ones: no start tells where the model is.
+  void expect_no_start() { settings_.first_above = settings_.tracked_above; }
+  /// Asks of the first pose what is asked just after a loss: the start was wrong.
+  void distrust_start() { ever_tracked_ = true; }
+
   /// Returns the threshold above which a cost is an outlier of recent frames; -infinity with too
   /// few.
   double usual_cost() const;

@@ -39,6 +39,15 @@ std::vector<std::optional<SeenHand>> HandFinder::find(const Observation& observa
   return match(wanted, seen.hands);
 }
 
+bool HandFinder::saw_other_side(const Observation& observation, std::size_t view,
+                                const ModelHand& model) {
+  constexpr double kSurely = 0.8;
+  const SeenHand own{.directions = directions_to(model.start, observation.views[view].camera)};
+  return std::ranges::any_of(known(observation, view).hands, [&](const SeenHand& seen) {
+    return (model.right ? 1 - seen.right : seen.right) >= kSurely && same_hand(own, seen);
+  });
+}
+
 std::vector<std::optional<SeenHand>> HandFinder::last(const Observation& observation,
                                                       std::size_t view,
                                                       std::span<const ModelHand> models) {

@@ -42,6 +42,10 @@ class HandFinder {
   std::vector<std::optional<SeenHand>> find(const Observation& observation, std::size_t view,
                                             std::span<const ModelHand> models);
 
+  /// Returns whether find() saw a hand of the other side in a view, surely and about where the
+  /// model's search starts.
+  bool saw_other_side(const Observation& observation, std::size_t view, const ModelHand& model);
+
  private:
   /// A part of a picture in which hands were looked for.
   struct Part {

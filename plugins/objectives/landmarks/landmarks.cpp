@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "hand_detector.hpp"
@@ -16,8 +17,8 @@
 
 namespace hypotrack::landmarks {
 
-Landmarks::Landmarks(const Params& params, const Scene& scene, Detector detector)
-    : params_(params), scene_(scene), finder_(std::move(detector)) {
+Landmarks::Landmarks(const Params& params, const Scene& scene, Detector detector, PluginLog log)
+    : params_(params), log_(std::move(log)), scene_(scene), finder_(std::move(detector)) {
   for (const Scene::Item& item : scene.items()) {
     if (const auto hand = hand_model(*item.model)) hands_.push_back({&item, *hand});
   }
@@ -47,8 +48,26 @@ void Landmarks::prepare(const Observation& observation) {
     for (std::size_t h = 0; h < hands_.size(); ++h)
       take_hand(sights_[h], hands_[h].model, observation.views[views[i]].camera, found[i][h]);
   }
+  check_sides(observation, views, models);
   for (HandSights& hand : sights_) {
     for (Sight& sight : hand.sights) sight.factor /= std::sqrt(static_cast<double>(views.size()));
+  }
+}
+
+void Landmarks::check_sides(const Observation& observation, const std::vector<std::size_t>& views,
+                            const std::vector<ModelHand>& models) {
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    const bool is_other = std::ranges::all_of(views, [&](std::size_t view) {
+      return finder_.saw_other_side(observation, view, models[h]);
+    });
+    if (!hands_[h].side.add(observation.frame, is_other)) continue;
+    const auto [own, seen, type] = hands_[h].model.right
+                                       ? std::tuple("right", "left", "mirrored_hand")
+                                       : std::tuple("left", "right", "hand");
+    log_.warning(fmt::format(
+        "the detector sees a {} hand where '{}' is, a {} one. Is the model that of the other hand "
+        "(such as `type: {}`), or are the pictures mirrored?",
+        seen, hands_[h].item->name, own, type));
   }
 }
 

@@ -6,7 +6,9 @@
 
 #include "hand_finder.hpp"
 #include "hypotrack/objective.hpp"
+#include "hypotrack/plugin_log.hpp"
 #include "params.hpp"
+#include "side_check.hpp"
 #include "sight_term.hpp"
 
 namespace hypotrack::landmarks {
@@ -30,7 +32,7 @@ class Landmarks : public Objective, public ResidualTerm {
   using Params = LandmarksParams;
 
   /// The scene must outlive it. The detector is not asked if no model of the scene is a hand.
-  Landmarks(const Params& params, const Scene& scene, Detector detector);
+  Landmarks(const Params& params, const Scene& scene, Detector detector, PluginLog log = {});
 
   bool needs_rendering() const override { return false; }
   ImageUse image_use() const override { return {.mask = false, .depth = false}; }
@@ -52,14 +54,19 @@ class Landmarks : public Objective, public ResidualTerm {
   struct Hand {
     const Scene::Item* item;
     HandModel model;
+    SideCheck side = {};
   };
 
   /// Returns each hand at the start of the search and in the last frame.
   std::vector<ModelHand> model_hands(const Observation& observation) const;
+  /// Warns if all these views show a hand of the other side where a model is.
+  void check_sides(const Observation& observation, const std::vector<std::size_t>& views,
+                   const std::vector<ModelHand>& models);
   void take_hand(HandSights& sights, const HandModel& model, const TileCamera& camera,
                  const std::optional<SeenHand>& seen) const;
 
   Params params_;
+  PluginLog log_;
   const Scene& scene_;
   std::vector<Hand> hands_;
   HandFinder finder_;

@@ -7,8 +7,8 @@ namespace {
 class Plugin final : public hypotrack::landmarks::Landmarks {
  public:
   Plugin(const Params& params, hypotrack::PluginContext& context)
-      : Landmarks(params, context.scene(),
-                  hypotrack::landmarks::networks(params, context.scene())) {}
+      : Landmarks(params, context.scene(), hypotrack::landmarks::networks(params, context.scene()),
+                  context.log()) {}
 };
 
 }  // namespace

@@ -117,6 +117,18 @@ TEST(Lost, SaysThatTheHandIsAwayForHalfASecondAndFindsItInTheSamePlace) {
   expect_found_again(frames, 26);
 }
 
+TEST(Lost, SaysThatAHandHasLeftThePicturesThoughTheyShowItsColours) {
+  const auto frames = track(
+      26, {"source.frames=26", "source.background={kind: procedural, seed: 4}",
+           "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
+           " rotation_deg: [180, 0, 0]}}}, {frame: 4, gesture: open}, {frame: 20, gesture: open,"
+           " pose: {hand: {position_mm: [900, 80, 500], rotation_deg: [180, 0, 0]}}}]"});
+  EXPECT_EQ(frames[4].status, Status::tracked) << statuses(frames);
+  for (std::size_t i = 10; i < frames.size(); ++i)
+    EXPECT_NE(frames[i].status, Status::tracked) << "frame " << i << " of " << statuses(frames);
+  EXPECT_EQ(frames.back().status, Status::absent) << statuses(frames);
+}
+
 TEST(Lost, FindsAHandThatComesBackElsewhere) {
   const auto frames = track(
       40,

@@ -222,6 +222,159 @@ TEST(LookedFor, RecognisedPosesAreLostHalfASecondAfterTheyWereSeenLast) {
   EXPECT_EQ(found.statuses[22], Status::lost);
 }
 
+TEST(LookedFor, FramesInWhichAStartDeniesAModelAreNotSearched) {
+  PluginLoader plugins;
+  OpenedScene session = open_unstarted(plugins, {"source.faults=[{frames: [0, 9], kind: absent}]"});
+  std::optional<SceneTracker> tracker;
+  for (int i = 0; i < 3; ++i) {
+    const Frame frame = session.source->next().value();
+    if (!tracker) {
+      session.parts.starts.insert(
+          session.parts.starts.begin(),
+          std::make_unique<Recognizer>(frame.truth->state, Frames{100, 100}));
+      tracker.emplace(*session.scene, std::move(session.parts), initial_state(session, frame),
+                      session.seed);
+    }
+    const Solution solution = tracker->track(frame);
+    EXPECT_EQ(solution.status, Status::lost);
+    if (i > 0) {
+      EXPECT_EQ(solution.evaluations, 0) << "frame " << i;
+    }
+  }
+}
+
+/// Recognises the right one of two hands where it is. Takes it for the left one, too, in searches
+/// of whole pictures.
+class RightHandOnly final : public Start {
+ public:
+  RightHandOnly(const Eigen::VectorXd& truth, bool recognizes)
+      : truth_(truth), recognizes_(recognizes) {}
+  bool looks() const override { return true; }
+  bool recognizes(std::size_t /*model*/) const override { return recognizes_; }
+  void find(const StartContext& context, std::size_t model, const TakePose& take) override {
+    const Scene::Item& right = context.scene.items()[0];
+    if (model == 0 || (!recognizes_ && context.search))
+      take(truth_.segment(right.offset, right.model->dimension()));
+  }
+
+ private:
+  const Eigen::VectorXd& truth_;
+  bool recognizes_;
+};
+
+TEST(LookedFor, AHandThatIsAnotherModelsIsNotTaken) {
+  PluginLoader plugins;
+  const std::string real_time = (test::source_dir() / "configs/scenes/real_time.yaml").string();
+  const std::vector<std::string> overrides{
+      "evaluate.backend=cpu",
+      "objective=@" + real_time,
+      "optimizer=@" + real_time,
+      "budget.evaluations=60",
+      "tile.size=128",
+      "tracker.recovery.check_s=0",
+      "tracker.surely_above=0.05",
+      "tracker.tracked_above=0.05",
+      "tracker.confirmed_above=0.05",
+      "tracker.uncertain_above=0.02",
+      "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
+      "source.faults=[{frames: [3, 5], kind: absent}, {frames: [6, 99], kind: absent, model: "
+      "left}]"};
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes/two_hands.yaml", overrides, plugins);
+  std::optional<SceneTracker> tracker;
+  Eigen::VectorXd truth;
+  for (int i = 0; i < 10; ++i) {
+    const Frame frame = session.source->next().value();
+    truth = frame.truth->state;
+    if (!tracker) {
+      session.parts.starts.clear();
+      session.parts.starts.push_back(std::make_unique<RightHandOnly>(truth, true));
+      session.parts.starts.push_back(std::make_unique<RightHandOnly>(truth, false));
+      tracker.emplace(*session.scene, std::move(session.parts), truth, session.seed);
+    }
+    const Solution solution = tracker->track(frame);
+    if (i < 6) continue;
+    EXPECT_EQ(solution.models[0], Status::tracked) << "frame " << i;
+    EXPECT_NE(solution.models[1], Status::tracked) << "frame " << i;
+    EXPECT_NE(solution.models[1], Status::uncertain) << "frame " << i;
+  }
+}
+
+/// Tracks a hand that has become a fist, from the pose of the first frame of the recording, when it
+/// was open. `prepare` changes the tracker's parts.
+template <class Prepare>
+std::pair<std::vector<Found>, std::vector<std::string>> track_stale(int frames, Prepare prepare) {
+  constexpr int kFist = 46;
+  PluginLoader plugins;
+  const std::vector<std::string> overrides{
+      "evaluate.backend=cpu",
+      "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+  const Eigen::VectorXd stale = session.source->next().value().truth->state;
+  for (int i = 1; i < kFist; ++i) session.source->next();
+  std::optional<SceneTracker> tracker;
+  std::vector<Found> out;
+  for (int i = 0; i < frames; ++i) {
+    const Frame frame = session.source->next().value();
+    const Eigen::Matrix3Xd truth = session.scene->landmarks(frame.truth->state);
+    if (!tracker) {
+      EXPECT_GT((session.scene->landmarks(stale) - truth).colwise().norm().mean(), 0.04);
+      prepare(session.parts, frame.truth->state);
+      tracker.emplace(*session.scene, std::move(session.parts), stale, session.seed);
+    }
+    const Solution solution = tracker->track(frame);
+    out.push_back({solution.status, (solution.landmarks - truth).colwise().norm().mean()});
+  }
+  return {out, tracker->take_notes()};
+}
+
+TEST(GivenStart, OfAnotherMomentIsContradictedByThePictures) {
+  const auto [found, notes] = track_stale(2, [](auto&...) {});
+  for (const Found& frame : found) {
+    EXPECT_EQ(frame.status, Status::tracked);
+    EXPECT_LT(frame.error, 0.010);
+  }
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_NE(notes[0].find("frame 46: the start (init) is not where 'hand' is"), std::string::npos)
+      << notes[0];
+}
+
+TEST(GivenStart, OfAnotherMomentIsContradictedByADetector) {
+  const auto [found, notes] = track_stale(2, [](TrackerParts& parts, const Eigen::VectorXd& truth) {
+    parts.starts.clear();
+    parts.starts.push_back(std::make_unique<AlwaysThere>(truth));
+  });
+  for (const Found& frame : found) {
+    EXPECT_EQ(frame.status, Status::tracked);
+    EXPECT_LT(frame.error, 0.010);
+  }
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_NE(notes[0].find("a detector sees it"), std::string::npos) << notes[0];
+}
+
+TEST(GivenStart, ThatIsCentimetresOffIsNotDoubted) {
+  constexpr std::int64_t kBudget = 400;
+  for (const char* away : {"10", "25"}) {
+    PluginLoader plugins;
+    const std::vector<std::string> overrides{
+        "evaluate.backend=cpu", "budget.evaluations=" + std::to_string(kBudget),
+        "init={from: truth, away_mm: " + std::string(away) + ", away_deg: 10}",
+        "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
+    OpenedScene session =
+        open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+    const Frame frame = session.source->next().value();
+    SceneTracker tracker(*session.scene, std::move(session.parts), initial_state(session, frame),
+                         session.seed);
+    const Solution solution = tracker.track(frame);
+    EXPECT_EQ(solution.status, Status::tracked) << away << " mm off";
+    EXPECT_LE(solution.evaluations, 8 * kBudget) << "more than the eight first searches";
+    const Eigen::Matrix3Xd truth = session.scene->landmarks(frame.truth->state);
+    EXPECT_LT((solution.landmarks - truth).colwise().norm().mean(), 0.005) << away << " mm off";
+    EXPECT_TRUE(tracker.take_notes().empty()) << away << " mm off";
+  }
+}
+
 TEST(LookedFor, TrackedModelsThatAStartSeesElsewhereMoveThere) {
   EXPECT_GT(last_error_of_a_believer(0), 0.05);
   EXPECT_LT(last_error_of_a_believer(0.1), 0.01);

@@ -44,7 +44,7 @@ std::span<const std::string_view> enum_names(RecoveryRun) {
 
 Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
                    const RecoverySettings& settings)
-    : scene_(scene), cameras_(cameras), settings_(settings) {
+    : scene_(scene), cameras_(cameras), settings_(settings), in_view_(scene.items().size(), true) {
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     searches_.push_back(std::make_unique<PoseSearch>(scene, m, cameras, settings));
     finders_.emplace_back(cameras, kFinderWindow * searches_[m]->radius(), settings.nearest,
@@ -59,6 +59,7 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
 void Recovery::remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked) {
   for (std::size_t m = 0; m < searches_.size(); ++m) {
     if (!tracked[m]) continue;
+    in_view_[m] = true;
     searched_[m].forget();
     searched_held_[m].forget();
     const Scene::Item& item = scene_.items()[m];
@@ -177,7 +178,7 @@ bool Recovery::hides_others(const Task& task, const Eigen::VectorXd& state,
 
 Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVerifier& verifier,
                                LastKnown last, std::size_t model, const std::vector<bool>& shown,
-                               const std::vector<bool>& held, const MotionLimits& limits) {
+                               const std::vector<bool>& held) {
   Task task{search, frame, verifier, model, std::move(last), shown};
   task.hidden[model] = false;
   task.hidden.flip();
@@ -185,11 +186,7 @@ Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVeri
     if (held[m])
       task.held.push_back({m, pose_of(scene_.items()[model], task.last.before).inverse() *
                                   pose_of(scene_.items()[m], task.last.before)});
-  const Places seen = places(task);
-  const ModelVerifier& of_model = verifier.model(model);
-  task.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
-  if (!task.in_view) return task;
-  task.guesses = guesses(task, seen, limits);
+  task.in_view = in_view_[model] || !verifier.experienced(model);
   const Eigen::VectorXd others = searches_[model]->without(task.last.state, task.hidden);
   for (std::size_t m = 0; m < shown.size(); ++m)
     task.covered.push_back(task.hidden[m]
@@ -198,6 +195,19 @@ Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVeri
                                      .measure_evidence(frame, others, search.second_view_colors())
                                      .covered);
   return task;
+}
+
+void Recovery::look(Task& task, const MotionLimits& limits) {
+  if (std::exchange(task.looked, true)) return;
+  if (task.last.near_hint_only) {
+    task.guesses = guesses(task, {}, limits);
+    return;
+  }
+  const Places seen = places(task);
+  const ModelVerifier& of_model = task.verifier.model(task.model);
+  task.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
+  in_view_[task.model] = task.in_view;
+  if (task.in_view) task.guesses = guesses(task, seen, limits);
 }
 
 Candidates Recovery::find(const Task& task, const PoseGuess& guess,

@@ -57,7 +57,8 @@ class Recovery {
     std::vector<bool> hidden = {};     ///< models that are not in the scene now, and the lost one
     std::vector<HeldModel> held = {};  ///< hidden models that move with the lost one
     std::vector<double> covered = {};  ///< share of each model that others hide
-    bool in_view = true;               ///< false: no picture shows colours of the lost model
+    bool in_view = true;  ///< false: no picture showed colours of the lost model lately
+    bool looked = false;  ///< the guesses are known
     std::vector<PoseGuess> guesses = {};  ///< poses to search around, likeliest first
   };
 
@@ -65,12 +66,15 @@ class Recovery {
   Recovery(const Scene& scene, const std::vector<Camera>& cameras,
            const RecoverySettings& settings);
 
-  /// Finds places where a model may be, except places that were searched in vain and look the same.
-  /// Other models with `shown` keep their poses of `last`. Those with `held` move with the lost one
-  /// (held_by()). The rest are hidden. All arguments must outlive the task.
+  /// Begins the search for a model. Other models with `shown` keep their poses of `last`. Those
+  /// with `held` move with the lost one (held_by()). The rest are hidden. All arguments must
+  /// outlive the task.
   Task begin(FrameSearch& search, const Frame& frame, PoseVerifier& verifier, LastKnown last,
-             std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
-             const MotionLimits& limits);
+             std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held);
+
+  /// Finds places where the model may be, except places that were searched in vain and look the
+  /// same. Does so once per task: sweeps through whole pictures take their time.
+  void look(Task& task, const MotionLimits& limits);
 
   /// Finds poses of the model, and of what it holds, at one of the places.
   Candidates find(const Task& task, const PoseGuess& guess, const GlobalSearchSettings& effort,
@@ -106,6 +110,7 @@ class Recovery {
   std::vector<SearchedPlaces> searched_held_;     ///< for searches with what it holds
   std::optional<DepthWeights> depths_;            ///< for models whose colours are unknown
   std::array<BackgroundModel, 2> backgrounds_;    ///< of the reduced pictures
+  std::vector<bool> in_view_;                     ///< by model, when it was looked for last
 };
 
 }  // namespace internal

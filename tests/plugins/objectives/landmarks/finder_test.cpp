@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "hands_in_view.hpp"
+#include "plugin/plugin_notes.hpp"
 
 namespace hypotrack::landmarks {
 namespace {
@@ -110,6 +111,31 @@ TEST(MovedHand, IsNotFiniteWhereTheModelHasOnePoint) {
   HandPoints one = HandPoints::Constant(NAN);
   one.col(0) << 1, 2;
   EXPECT_FALSE(moved(HandPoints::Random(), one, one).allFinite());
+}
+
+TEST_F(HandFinderTest, WarnsOnceOfHandsThatAreOfTheOtherSideInManyFrames) {
+  const auto notes = std::make_shared<PluginNotes>();
+  Landmarks objective({}, test::two_hands(), sees_.detector(), {notes, "objective (landmarks)"});
+  const auto track = [&](int first, int end) {
+    for (int frame = first; frame < end; ++frame) {
+      sees_.seen = test::observation(relaxed(), frame);
+      objective.prepare(sees_.seen);
+      objective.prepare(sees_.seen);
+    }
+    return notes->take_lines();
+  };
+  EXPECT_TRUE(track(0, 10).empty());
+  sees_.exchanged = true;
+  EXPECT_TRUE(track(10, 17).empty());
+  sees_.exchanged = false;
+  EXPECT_TRUE(track(17, 18).empty());
+  sees_.exchanged = true;
+  EXPECT_TRUE(track(18, 25).empty());
+  const std::vector<std::string> lines = track(25, 60);
+  ASSERT_EQ(lines.size(), 2) << "one per model";
+  EXPECT_NE(lines[0].find("the detector sees a left hand where 'hand' is, a right one"),
+            std::string::npos)
+      << lines[0];
 }
 
 }  // namespace

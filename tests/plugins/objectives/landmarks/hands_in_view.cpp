@@ -78,7 +78,7 @@ std::vector<HandDetection> SeesState::hands(const cv::Mat& picture) const {
     hand.landmarks = in_tile(world, camera);
     hand.relative = camera.camera_from_world.linear() * (world.colwise() - world.rowwise().mean());
     hand.presence = presence;
-    hand.right = is_right ? 0.9 : 0.1;
+    hand.right = is_right != exchanged ? 0.9 : 0.1;
     out.push_back(hand);
   }
   return out;

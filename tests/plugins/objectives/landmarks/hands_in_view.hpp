@@ -30,6 +30,7 @@ class SeesState {
   double presence = 1;
   bool right = true;                           ///< sees the right hand
   bool left = true;                            ///< sees the left hand
+  bool exchanged = false;                      ///< takes right hands for left ones
   std::atomic<int> refined = 0, detected = 0;  ///< views are looked at by several threads
   std::atomic<int> followed = 0;               ///< of those that are refined
   std::atomic<double> farthest_followed = 0;   ///< pixels from a followed guess to the hand
