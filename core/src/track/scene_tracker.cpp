@@ -201,6 +201,7 @@ void SceneTracker::find_or_leave_device(const Frame& frame, Solution& solution,
 void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record,
                         FrameTrace* trace) {
   if (job_.valid()) return wait_for_job(frame, solution);
+  if (picture_checks_) finder_.search().follow_brightness(picture_checks_->drifts());
   finder_.search().record(record ? &record->searches : nullptr);
   finder_.search().trace(trace, trace ? &frame : nullptr);
   Candidate best = follow(frame);
