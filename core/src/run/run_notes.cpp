@@ -12,6 +12,7 @@ namespace hypotrack::internal {
 void RunNotes::add(const Solution& solution, const ClockTimes& clock) {
   add_fault(solution);
   look_at_start(solution);
+  say_rig_notes();
   look_at_device(fmt::format("frame {}", solution.frame));
   say_plugin_lines();
   look_at_outputs(clock);
@@ -21,6 +22,11 @@ void RunNotes::add_fault(const Solution& solution) {
   const auto& [fault, view] = std::pair(solution.fault, solution.fault_view);
   if (fault != FrameFault::none && faults_said_.emplace(fault, view).second)
     watcher_.say(fmt::format("note: frame {}: {}", solution.frame, describe(fault, view)));
+}
+
+void RunNotes::say_rig_notes() {
+  const std::vector<std::string> notes = tracker_.rig_notes();
+  for (; rig_said_ < notes.size(); ++rig_said_) watcher_.say("note: " + notes[rig_said_]);
 }
 
 /// Says if the pictures contradict what the first frame finds from a start that was given.

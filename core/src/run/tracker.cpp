@@ -130,7 +130,14 @@ Solution Tracker::track(const Frame& frame, const StopTest& stop) {
 
 const Scene& Tracker::scene() const { return *impl_->scene.scene; }
 const std::vector<Camera>& Tracker::cameras() const { return impl_->cameras; }
-std::vector<std::string> Tracker::take_notes() { return impl_->scene.plugin_notes->take_lines(); }
+std::vector<std::string> Tracker::take_notes() {
+  std::vector<std::string> lines = impl_->scene.plugin_notes->take_lines();
+  if (!impl_->tracker) return lines;
+  const std::vector<std::string> notes = impl_->tracker->rig_notes();
+  for (; impl_->rig_notes_taken < notes.size(); ++impl_->rig_notes_taken)
+    lines.push_back("note: " + notes[impl_->rig_notes_taken]);
+  return lines;
+}
 std::string Tracker::backend() const {
   return impl_->tracker ? impl_->tracker->backend() : "not chosen before the first frame";
 }

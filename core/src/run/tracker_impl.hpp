@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -27,6 +28,7 @@ struct Tracker::Impl {
   Eigen::VectorXd start;                ///< of the first search; empty: it takes a frame to tell
   bool begun = false;                   ///< whether `scene.parts` were given to a tracker
   std::optional<SceneTracker> tracker;  ///< from the first usable frame on if that gives the start
+  std::size_t rig_notes_taken = 0;
   std::optional<int> last_index;
   double last_time = -std::numeric_limits<double>::infinity();
 };

@@ -21,6 +21,7 @@
 #include "track/faults/steady_brightness.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
+#include "track/rig/rig_watch.hpp"
 #include "track/search_space.hpp"
 #include "track/search_trace.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
@@ -67,6 +68,10 @@ class SceneTracker {
   /// Returns the tiles that the search of `frame`, the last one tracked, saw; with the highlights.
   Observation seen(const Frame& frame) const;
 
+  /// Returns what the pictures show to be wrong with the cameras, each thing once.
+  std::vector<std::string> rig_notes() const {
+    return rig_ ? rig_->notes() : std::vector<std::string>();
+  }
   /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const;
   /// Returns the error after which the CPU took the place of a device; empty: there was none.
@@ -135,6 +140,10 @@ class SceneTracker {
   bool awaits(std::size_t model) const {
     return !begins_by_looking_ && !finder_.verifier().experienced(model);
   }
+  /// Calls models uncertain that are tracked with cameras whose depth may be wrong.
+  void doubt_rig(Solution& solution);
+  /// Returns a frame as it is searched: as bright as before, and as the calibration says.
+  Frame steadied(const Frame& frame) const;
   ModelFlags followed() const;
   /// Returns states from which the search of a frame may start. The middle one, which is in view,
   /// comes first.
@@ -155,6 +164,7 @@ class SceneTracker {
   CandidateFinder finder_;
   std::optional<PictureChecks> picture_checks_;
   SteadyBrightness brightness_;
+  std::optional<RigWatch> rig_;  ///< of a pair of views that are compared
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;
