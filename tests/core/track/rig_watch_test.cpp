@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "textured_pair.hpp"
 
@@ -101,8 +102,8 @@ TEST_F(RigWatchTest, RowsRollAndScaleAreMeasuredFromTheFirstFrameAndUndone) {
   EXPECT_NEAR(watch_.estimate().roll, kRoll, 0.002);
   EXPECT_NEAR(watch_.estimate().scale, kScale - 1, 0.004);
   EXPECT_THAT(watch_.notes(),
-              ElementsAre(AllOf(HasSubstr("frame 0: the second view is"), HasSubstr("rows lower"),
-                                HasSubstr("hypotrack calibration check"))));
+              ElementsAre(AllOf(HasSubstr("frame 0:"), HasSubstr("rows too low"),
+                                HasSubstr("clockwise"), HasSubstr("hypotrack calibration check"))));
   EXPECT_FALSE(watch_.is_doubtful());
   const cv::Rect inside(40, 40, TexturedPair::kWidth - 80, TexturedPair::kHeight - 80);
   const auto difference = [&](const cv::Mat& picture) {
@@ -110,6 +111,26 @@ TEST_F(RigWatchTest, RowsRollAndScaleAreMeasuredFromTheFirstFrameAndUndone) {
   };
   EXPECT_GT(difference(now.views[1].color), 8);
   EXPECT_LT(difference(watch_.applied_to(now).views[1].color), 4);
+}
+
+TEST_F(RigWatchTest, CamerasAboveEachOtherAreWatchedToo) {
+  std::vector<Camera> cameras = pair_.cameras;
+  for (Camera& camera : cameras) {
+    std::swap(camera.width, camera.height);
+    std::swap(camera.cx, camera.cy);
+  }
+  cameras[1].camera_from_world.translation() << 0, -0.12, 0;
+  Frame now = frame(0);
+  for (View& view : now.views) cv::rotate(view.color, view.color, cv::ROTATE_90_CLOCKWISE);
+  const cv::Mat below = now.views[1].color;
+  cv::warpAffine(below, now.views[1].color, cv::Matx23d(1, 0, 5, 0, 1, 0), below.size(),
+                 cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  RigWatch watch = RigWatch::make(cameras).value();
+  watch.look(now);
+  EXPECT_NEAR(std::abs(watch.estimate().rows), 5, 0.3);
+  const cv::Rect inside(40, 40, TexturedPair::kHeight - 80, TexturedPair::kWidth - 80);
+  EXPECT_LT(cv::norm(watch.applied_to(now).views[1].color(inside), below(inside), cv::NORM_L1),
+            3.0 * 2 * inside.area());
 }
 
 TEST_F(RigWatchTest, PicturesThatAreFarOffAreDoubtful) {

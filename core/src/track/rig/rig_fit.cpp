@@ -15,9 +15,6 @@ constexpr double kRounding = 0.1;    // pixels: no match is better
 // Patches overlap and share what disturbs them: so many count as one.
 constexpr double kShared = 4;
 
-/// Standard deviations before any match: 30 pixels, 0.1 rad, a tenth, 0.2 s.
-const Eigen::Vector4d kPrior(30, 0.1, 0.1, 0.2);
-
 double square(double x) { return x * x; }
 
 }  // namespace
@@ -39,7 +36,9 @@ RigEstimate RigFit::estimate() const {
   RigEstimate out;
   out.matches = static_cast<int>(all.size());
   if (all.empty()) return out;
-  const Eigen::Matrix4d prior = kPrior.cwiseAbs2().cwiseInverse().asDiagonal();
+  // Standard deviations before any match: pixels, radians, a share, seconds.
+  const Eigen::Vector4d unknown(30, 0.1, 0.1, 0.2);
+  const Eigen::Matrix4d prior = unknown.cwiseAbs2().cwiseInverse().asDiagonal();
   Eigen::Vector4d value = Eigen::Vector4d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero(), spread = covariance;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 #include <utility>
 
 namespace hypotrack::internal {
@@ -53,7 +55,7 @@ void RigWatch::look(const Frame& frame) {
   time_before_ = frame.time;
 }
 
-void RigWatch::measure(const Frame& frame, GreyPair now) {
+void RigWatch::measure(const Frame& frame, const GreyPair& now) {
   constexpr double kRows = 0.06;  // of the height: 20 rows of 360
   const double seconds = before_ ? frame.time - time_before_ : 0;
   const MatchRange range{pair_.disparity(kNearest), static_cast<int>(kRows * now[0].full.rows)};
@@ -74,14 +76,16 @@ void RigWatch::judge_rows(int frame) {
   if (sure < kFar && !said) return;
   misaligned_ = pixels;
   if (said) return;
+  const auto [rows, roll, scale] =
+      std::tuple(pair_.scale() * estimate_.rows, estimate_.roll * 180 / std::numbers::pi,
+                 100 * estimate_.scale);
   notes_.push_back(fmt::format(
-      "frame {}: the second view is {:.1f} rows lower than the calibration says, rolled by {:.2f} "
-      "degrees and {:.1f} % larger: {:.1f} px from the epipolar lines. {}. Check the cameras with "
-      "`hypotrack calibration check`, and calibrate again",
-      frame, pair_.scale() * estimate_.rows, estimate_.roll * 180 / M_PI, 100 * estimate_.scale,
-      pixels,
-      misaligned_ > kMostRows ? "Its pictures are moved there, and frames count as uncertain"
-                              : "Its pictures are moved there"));
+      "frame {}: against the calibration, the second view is {:.1f} rows too {}, {:.2f} degrees "
+      "rolled {} and {:.1f} % too {}; that is {:.1f} px from the epipolar lines. Its pictures are "
+      "moved to fit{}. Check the cameras with `hypotrack calibration check`, and calibrate again",
+      frame, std::abs(rows), rows > 0 ? "low" : "high", std::abs(roll),
+      roll > 0 ? "clockwise" : "anticlockwise", std::abs(scale), scale > 0 ? "large" : "small",
+      pixels, misaligned_ > kMostRows ? ", and frames count as uncertain" : ""));
 }
 
 void RigWatch::judge_delay(int frame) {
@@ -92,10 +96,9 @@ void RigWatch::judge_delay(int frame) {
   late_ = late_ ? delay + error > least : delay - error > least;
   if (said || !late_) return;
   notes_.push_back(fmt::format(
-      "frame {}: the {} view is {:.0f} ms ({:.1f} frames) late, as what moves shows; depth is "
-      "wrong "
-      "where it moves sideways, and frames count as uncertain. Start the cameras together, or pair "
-      "their pictures by time (`offset` of the source)",
+      "frame {}: the {} view is {:.0f} ms ({:.1f} frames) late, judged by what moves. Depth is "
+      "wrong where that moves sideways, and frames count as uncertain. Start the cameras together, "
+      "or pair their pictures by time (`offset` of the source)",
       frame, estimate_.delay > 0 ? "second" : "first", 1000 * delay, delay / frame_time_));
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -40,7 +41,7 @@ class RigWatch {
 
  private:
   explicit RigWatch(RectifiedPair pair) : pair_(std::move(pair)) {}
-  void measure(const Frame& frame, GreyPair now);
+  void measure(const Frame& frame, const GreyPair& now);
   void judge_rows(int frame);
   void judge_delay(int frame);
 
