@@ -122,7 +122,7 @@ TEST_F(RigWatchTest, CamerasAboveEachOtherAreWatchedToo) {
   cameras[1].camera_from_world.translation() << 0, -0.12, 0;
   Frame now = frame(0);
   for (View& view : now.views) cv::rotate(view.color, view.color, cv::ROTATE_90_CLOCKWISE);
-  const cv::Mat below = now.views[1].color;
+  const cv::Mat below = now.views[1].color.clone();
   cv::warpAffine(below, now.views[1].color, cv::Matx23d(1, 0, 5, 0, 1, 0), below.size(),
                  cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   RigWatch watch = RigWatch::make(cameras).value();
