@@ -72,41 +72,6 @@ TEST_F(PictureChecksTest, AFrozenViewBesideNoiseIsFound) {
   EXPECT_EQ(check(frame), FrameFault::frozen);
 }
 
-TEST_F(PictureChecksTest, AFrozenViewWithFreshNoiseIsNamed) {
-  const View still = pair_.frame(280).views[1];
-  for (std::uint64_t i = 0; i < 4; ++i)
-    EXPECT_EQ(check(noisy(pair_.frame(260 + 5 * static_cast<int>(i)), 3, i)), FrameFault::none);
-  for (std::uint64_t i = 4; i < 9; ++i) {
-    Frame frame = pair_.frame(260 + 5 * static_cast<int>(i));
-    frame.views[1] = still;
-    const FrameFault fault = check(noisy(frame, 3, i));
-    if (i < 6) continue;  // what moves has to differ from noise
-    EXPECT_EQ(fault, FrameFault::frozen) << "frame " << i;
-    EXPECT_EQ(last_.view, 1);
-  }
-  for (std::uint64_t i = 9; i < 12; ++i)
-    EXPECT_EQ(check(noisy(pair_.frame(260 + 5 * static_cast<int>(i)), 3, i)), FrameFault::none);
-}
-
-TEST_F(PictureChecksTest, ViewsThatAllRepeatTheirNoiseAreNamed) {
-  for (std::uint64_t i = 0; i < 3; ++i)
-    EXPECT_EQ(check(noisy(pair_.frame(280 + 5 * static_cast<int>(i)), 2, i)), FrameFault::none);
-  const Frame frame = noisy(pair_.frame(295), 2, 3);
-  for (int i = 0; i < 8; ++i) {
-    const FrameFault fault = check(frame);
-    EXPECT_EQ(fault, i < 3 ? FrameFault::none : FrameFault::frozen) << "frame " << i;
-    EXPECT_EQ(last_.view, i < 3 ? 0 : -1);
-  }
-  EXPECT_EQ(check(noisy(pair_.frame(300), 2, 4)), FrameFault::none);
-}
-
-TEST_F(PictureChecksTest, SlowMotionBesideNoiseIsSound) {
-  for (int i = 0; i < 40; ++i)
-    EXPECT_EQ(check(noisy(pair_.frame(280 + i / 4), 3, static_cast<std::uint64_t>(i))),
-              FrameFault::none)
-        << "frame " << i;
-}
-
 TEST_F(PictureChecksTest, MotionThatOneCameraAloneSeesIsNoFault) {
   // Left of what the second camera sees, however far away it is.
   const View still = pair_.frame(-TexturedPair::kSide).views[1];
