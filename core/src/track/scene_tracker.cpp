@@ -120,6 +120,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
   if (settings_.check_pictures && look_at_pictures(terms_)) {
     picture_checks_.emplace(parts.cameras, joined_use(terms_).depth);
     rig_ = RigWatch::make(parts.cameras);
+    if (rig_) model_rows_.emplace(scene);
   }
   if (begins_by_looking_ && !recovers())
     throw ConfigError(
@@ -170,7 +171,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
     if (!spoils_pictures(fault)) {
       const Frame steady = steadied(frame);
       naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
-      if (rig_) doubt_rig(solution);
+      if (rig_) doubt_rig(steady, solution);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -187,9 +188,16 @@ Frame SceneTracker::steadied(const Frame& frame) const {
   return rig_ ? rig_->applied_to(steady) : steady;
 }
 
-void SceneTracker::doubt_rig(Solution& solution) {
+void SceneTracker::doubt_rig(const Frame& frame, Solution& solution) {
   if (finder_.search().photometric().knows())
     rig_->look_at_colors(solution.frame, finder_.search().second_view_colors());
+  if (solution.status == Status::tracked) {
+    const FrameSearch& search = finder_.search();
+    if (const auto motion = model_rows_->next(frame, search.tiles(), search.drawn(state_)))
+      rig_->look_at_motion(solution.frame, *motion);
+  } else {
+    model_rows_->skip();
+  }
   if (!rig_->is_doubtful()) return;
   for (Status& status : solution.models)
     if (status == Status::tracked) status = Status::uncertain;

@@ -21,6 +21,7 @@
 #include "track/faults/steady_brightness.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
+#include "track/rig/model_rows.hpp"
 #include "track/rig/rig_watch.hpp"
 #include "track/search_space.hpp"
 #include "track/search_trace.hpp"
@@ -140,8 +141,9 @@ class SceneTracker {
   bool awaits(std::size_t model) const {
     return !begins_by_looking_ && !finder_.verifier().experienced(model);
   }
-  /// Calls models uncertain that are tracked with cameras whose depth may be wrong.
-  void doubt_rig(Solution& solution);
+  /// Watches the rig. Calls models uncertain that are tracked with cameras whose depth may be
+  /// wrong.
+  void doubt_rig(const Frame& frame, Solution& solution);
   /// Returns a frame as it is searched: as bright as before, and as the calibration says.
   Frame steadied(const Frame& frame) const;
   ModelFlags followed() const;
@@ -165,6 +167,7 @@ class SceneTracker {
   std::optional<PictureChecks> picture_checks_;
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;  ///< of a pair of views that are compared
+  std::optional<ModelRows> model_rows_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSure = 4;        // standard deviations
 constexpr int kFewest = 12;        // matches: three for each number that is fitted
-constexpr int kInterval = 15;      // frames from one measurement to the next
+constexpr int kInterval = 30;      // frames from one measurement to the next
 constexpr double kNearest = 0.25;  // metres
 
 bool is_pair(const Frame& frame) {
@@ -45,30 +45,20 @@ std::optional<RigWatch> RigWatch::make(const std::vector<Camera>& cameras) {
 void RigWatch::look(const Frame& frame) {
   if (!is_pair(frame)) return;
   const int number = frames_++;
-  if (number < next_ - 1) return;
-  GreyPair now = pair_.resample(frame);
-  if (number == next_) {
-    next_ += std::clamp(next_, 1, kInterval);
-    measure(frame, now);
-  }
-  before_ = std::move(now);
-  time_before_ = frame.time;
-}
-
-void RigWatch::measure(const Frame& frame, const GreyPair& now) {
+  if (number > 0 && frame.time > time_) frame_time_ = std::min(frame_time_, frame.time - time_);
+  time_ = frame.time;
+  if (number < next_) return;
+  next_ += std::clamp(next_, 1, kInterval);
   constexpr double kRows = 0.06;  // of the height: 20 rows of 360
-  const double seconds = before_ ? frame.time - time_before_ : 0;
-  const MatchRange range{pair_.disparity(kNearest), static_cast<int>(kRows * now[0].full.rows)};
-  const GreyPicture none;
-  fit_.add(match_rows(now, seconds > 0 ? (*before_)[0] : none, pair_.center(), range), seconds);
-  if (seconds > 0) frame_time_ = std::min(frame_time_, seconds);
+  const GreyPair pictures = pair_.resample(frame);
+  const MatchRange range{pair_.disparity(kNearest),
+                         static_cast<int>(kRows * pictures[0].full.rows)};
+  fit_.add(match_rows(pictures, pair_.center(), range));
   estimate_ = fit_.estimate();
-  if (estimate_.matches < kFewest) return;
-  judge_rows(frame.index);
-  judge_delay(frame.index);
+  if (estimate_.matches >= kFewest) judge(frame.index);
 }
 
-void RigWatch::judge_rows(int frame) {
+void RigWatch::judge(int frame) {
   constexpr double kFar = 1.5;  // pixels from the epipolar lines, as `calibration check` has it
   const double pixels = pair_.scale() * estimate_.row_error;
   const double sure = pixels - kSure * pair_.scale() * estimate_.row_error_sigma;
@@ -84,31 +74,42 @@ void RigWatch::judge_rows(int frame) {
       "rolled {} and {:.1f} % too {}; that is {:.1f} px from the epipolar lines. Its pictures are "
       "moved to fit{}. Check the cameras with `hypotrack calibration check`, and calibrate again",
       frame, std::abs(rows), rows > 0 ? "low" : "high", std::abs(roll),
-      roll > 0 ? "clockwise" : "anticlockwise", std::abs(scale), scale > 0 ? "large" : "small",
+      roll > 0 ? "clockwise" : "counterclockwise", std::abs(scale), scale > 0 ? "large" : "small",
       pixels, misaligned_ > kMostRows ? ", and frames count as uncertain" : ""));
 }
 
-void RigWatch::judge_delay(int frame) {
+void RigWatch::look_at_motion(int frame, const RowMotion& motion) {
+  delay_.add(motion);
   // Pictures that are paired by their times are half a frame apart at most.
   const double least = frame_time_ / 2;
-  const double delay = std::abs(estimate_.delay), error = kSure * estimate_.delay_sigma;
-  const bool said = late_;
-  late_ = late_ ? delay + error > least : delay - error > least;
-  if (said || !late_) return;
+  const auto late = delay_.beyond(least);
+  if (late_ && !late) {
+    const Delay now = delay_.estimate();
+    late_ = !(std::abs(now.seconds) + kSure * now.sigma < least);
+  } else {
+    late_ = late.has_value();
+  }
+  if (!late || std::exchange(late_said_, true)) return;
+  const double seconds = std::abs(late->seconds);
   notes_.push_back(fmt::format(
-      "frame {}: the {} view is {:.0f} ms ({:.1f} frames) late, judged by what moves. Depth is "
-      "wrong where that moves sideways, and frames count as uncertain. Start the cameras together, "
-      "or pair their pictures by time (`offset` of the source)",
-      frame, estimate_.delay > 0 ? "second" : "first", 1000 * delay, delay / frame_time_));
+      "frame {}: the {} view is {:.0f} ms ({:.1f} frames) late, judged by models that move. Their "
+      "depth is wrong while they move sideways, and frames count as uncertain. Start the cameras "
+      "together, or pair their pictures by time (`offset` of the source)",
+      frame, late->seconds > 0 ? "second" : "first", 1000 * seconds, seconds / frame_time_));
 }
 
 void RigWatch::look_at_colors(int frame, const ColorMap& colors) {
-  constexpr double kMuch = 1.25;  // times
+  constexpr double kMuch = 1.25;              // times
+  constexpr int kLearning = 5, kLasting = 5;  // frames
   const double now = brightness_of(colors);
-  if (!brightness_) brightness_ = now;
-  const double times = now / *brightness_;
-  if (brightness_said_ || (times < kMuch && times > 1 / kMuch)) return;
-  brightness_said_ = true;
+  if (color_frames_ < kLearning) {
+    ++color_frames_;
+    brightness_ = now;
+    return;
+  }
+  const double times = now / brightness_;
+  other_frames_ = times < kMuch && times > 1 / kMuch ? 0 : other_frames_ + 1;
+  if (other_frames_ < kLasting || std::exchange(brightness_said_, true)) return;
   notes_.push_back(fmt::format(
       "frame {}: against the first view, the second is {:.2f} times as bright as at the start; "
       "colours follow. Fix exposure, gain and white balance of the cameras",

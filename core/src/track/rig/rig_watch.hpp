@@ -10,6 +10,7 @@
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/color_map.hpp"
+#include "track/rig/delay_fit.hpp"
 #include "track/rig/rectified_pair.hpp"
 #include "track/rig/rig_fit.hpp"
 
@@ -29,6 +30,8 @@ class RigWatch {
   void look(const Frame& frame);
   /// Takes the map from the second view's colours to the first's in a frame that was tracked.
   void look_at_colors(int frame, const ColorMap& colors);
+  /// Takes how models that are tracked move.
+  void look_at_motion(int frame, const RowMotion& motion);
 
   /// Returns a frame with the second view's pictures moved to where the calibration has them.
   Frame applied_to(const Frame& frame) const;
@@ -41,9 +44,7 @@ class RigWatch {
 
  private:
   explicit RigWatch(RectifiedPair pair) : pair_(std::move(pair)) {}
-  void measure(const Frame& frame, const GreyPair& now);
-  void judge_rows(int frame);
-  void judge_delay(int frame);
+  void judge(int frame);
 
   static constexpr double kMostRows = 8;  ///< pixels that moving a picture makes up for
 
@@ -51,12 +52,14 @@ class RigWatch {
   RigFit fit_;
   RigEstimate estimate_;
   int frames_ = 0, next_ = 0;  ///< number of frames, the one that is measured next
-  std::optional<GreyPair> before_;
-  double time_before_ = 0;                                       ///< of `before_`
+  DelayFit delay_;
+  double time_ = 0;                                              ///< of the last frame
   double frame_time_ = std::numeric_limits<double>::infinity();  ///< shortest, seconds
+  bool late_ = false, late_said_ = false;
   double misaligned_ = 0;  ///< pixels in the second view; 0: not surely
-  bool late_ = false;
-  std::optional<double> brightness_;  ///< of the first view against the second, at the start
+  int color_frames_ = 0;   ///< that taught colours at the start
+  double brightness_ = 0;  ///< of the first view against the second, after those
+  int other_frames_ = 0;   ///< frames in a row with another brightness
   bool brightness_said_ = false;
   std::vector<std::string> notes_;
 };

@@ -11,9 +11,7 @@ namespace {
 
 constexpr int kCoarse = 4, kFine = 7;  // half sides of patches, in half and in full pictures
 constexpr int kMargin = 2 * kFine;     // pixels to the border
-constexpr int kMotion = 24;            // pixels from frame to frame
-constexpr std::size_t kMoving = 16;    // corners that moved most, and as many others
-constexpr std::size_t kFirst = 64;     // corners of the first picture
+constexpr std::size_t kCorners = 48;
 
 cv::Rect patch_at(const cv::Point& at, int half_side) {
   return {at.x - half_side, at.y - half_side, 2 * half_side + 1, 2 * half_side + 1};
@@ -75,54 +73,35 @@ std::optional<Eigen::Vector2d> find(const GreyPicture& from, const cv::Point& at
   return coarse ? find_fine(from.full, at, to.full, *coarse * 2) : std::nullopt;
 }
 
-/// Returns corners of a picture, those first where it changed most since another one.
-std::vector<cv::Point> corners(const cv::Mat1b& now, const cv::Mat1b& before) {
+/// Returns corners from all over a picture, `most` of them.
+std::vector<cv::Point> corners(const cv::Mat1b& picture, std::size_t most) {
   constexpr double kQuality = 0.01, kApart = 12;
   std::vector<cv::Point2f> found;
-  cv::goodFeaturesToTrack(now, found, 0, kQuality, kApart);
-  std::vector<std::pair<double, cv::Point>> sorted;
-  const cv::Rect inside(kMargin, kMargin, now.cols - 2 * kMargin, now.rows - 2 * kMargin);
+  cv::goodFeaturesToTrack(picture, found, 0, kQuality, kApart);
+  std::vector<cv::Point> out;
+  const cv::Rect inside(kMargin, kMargin, picture.cols - 2 * kMargin, picture.rows - 2 * kMargin);
   for (const cv::Point2f& corner : found) {
     const cv::Point at(cvRound(corner.x), cvRound(corner.y));
-    if (!inside.contains(at)) continue;
-    const cv::Rect patch = patch_at(at, kFine);
-    const double change = before.empty() ? 0 : cv::norm(now(patch), before(patch), cv::NORM_L1);
-    sorted.emplace_back(-change, at);
+    if (inside.contains(at)) out.push_back(at);
   }
-  std::ranges::stable_sort(sorted, {}, [](const auto& one) { return one.first; });
-  std::vector<cv::Point> out;
-  for (const auto& [change, at] : sorted) out.push_back(at);
+  if (out.size() <= most) return out;
+  // The best corners alone may lie on one object.
+  for (std::size_t i = 0; i < most; ++i) out[i] = out[i * out.size() / most];
+  out.resize(most);
   return out;
 }
 
 }  // namespace
 
-std::vector<RowMatch> match_rows(const GreyPair& now, const GreyPicture& before,
-                                 const Eigen::Vector2d& center, const MatchRange& range) {
-  const bool knows_motion = !before.full.empty();
-  const std::size_t moving = knows_motion ? kMoving : 0;
-  const std::size_t all = knows_motion ? 2 * kMoving : kFirst;
-  std::vector<cv::Point> places = corners(now[0].full, before.full);
-  if (places.size() > all) {  // the others from all over the picture
-    const double step =
-        static_cast<double>(places.size() - moving) / static_cast<double>(all - moving);
-    for (std::size_t i = moving; i < all; ++i)
-      places[i] = places[moving + static_cast<std::size_t>(step * static_cast<double>(i - moving))];
-    places.resize(all);
-  }
+std::vector<RowMatch> match_rows(const GreyPair& pictures, const Eigen::Vector2d& center,
+                                 const MatchRange& range) {
+  const auto& [first, second] = pictures;
+  const int disparity = static_cast<int>(range.disparity);
   std::vector<RowMatch> out;
-  for (const cv::Point& at : places) {
-    const int disparity = static_cast<int>(range.disparity);
+  for (const cv::Point& at : corners(first.full, kCorners)) {
     const cv::Rect row(at.x - disparity, at.y - range.rows, disparity + kFine, 2 * range.rows);
-    const auto second = find(now[0], at, now[1], row);
-    if (!second) continue;
-    Eigen::Vector2d motion(0, 0);
-    if (knows_motion) {
-      const auto earlier = find(now[0], at, before, patch_at(at, kMotion));
-      if (!earlier) continue;
-      motion = Eigen::Vector2d(at.x, at.y) - *earlier;
-    }
-    out.push_back({*second - center, second->y() - at.y, motion});
+    const auto match = find(first, at, second, row);
+    if (match) out.push_back({*match - center, match->y() - at.y});
   }
   return out;
 }

@@ -11,9 +11,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A place that both views of a rectified pair show, in pixels.
 struct RowMatch {
-  Eigen::Vector2d at;      ///< in the second view, from the principal point
-  double residual = 0;     ///< rows by which the second view shows it lower
-  Eigen::Vector2d motion;  ///< in the first view, since the picture before
+  Eigen::Vector2d at;   ///< in the second view, from the principal point
+  double residual = 0;  ///< rows by which the second view shows it lower
 };
 
 /// How far to look for matches, in pixels.
@@ -22,10 +21,9 @@ struct MatchRange {
   int rows = 0;          ///< largest residual
 };
 
-/// Matches corners of the first picture along the rows of the second, half of them where the first
-/// picture changed since the one before. `before` has no pictures at the start: motion is 0 then.
-std::vector<RowMatch> match_rows(const GreyPair& now, const GreyPicture& before,
-                                 const Eigen::Vector2d& center, const MatchRange& range);
+/// Matches corners from all over the first picture along the rows of the second.
+std::vector<RowMatch> match_rows(const GreyPair& pictures, const Eigen::Vector2d& center,
+                                 const MatchRange& range);
 
 }  // namespace internal
 }  // namespace hypotrack
