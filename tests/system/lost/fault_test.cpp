@@ -127,21 +127,6 @@ void expect_right(const std::vector<SpoiledFrame>& frames, int first, int last) 
   }
 }
 
-/// Expects that all frames from `from` on are uncertain.
-void expect_doubted(const std::vector<SpoiledFrame>& frames, int from) {
-  for (int i = from; i < std::ssize(frames); ++i)
-    EXPECT_EQ(frames[static_cast<std::size_t>(i)].status, Status::uncertain)
-        << "frame " << i << " of " << text_of_spoiled(frames);
-}
-
-TEST(Fault, HandsAreUncertainWhileAViewIsLate) {
-  std::optional<View> kept;
-  const auto late = [&kept](Frame& frame, const Frame&) {
-    std::swap(frame.views[1], kept ? *kept : kept.emplace(frame.views[1]));
-  };
-  expect_doubted(track_spoiled(45, 99, late, {}, 0), 33);
-}
-
 TEST(Fault, AHandIsTrackedThoughAViewIsLower) {
   const auto frames = track_spoiled(
       30, 99,
