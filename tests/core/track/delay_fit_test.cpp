@@ -85,7 +85,7 @@ TEST(DelayFit, ALateViewIsSaidOnceAndForgottenWhenItEnds) {
     watch.look_at_motion(2 * i, i < 30 ? late.at(i) : sound.at(i));
     if (i == 29) {
       EXPECT_TRUE(watch.is_doubtful());
-      EXPECT_THAT(watch.notes(), ElementsAre(HasSubstr("the second view is 3")));
+      EXPECT_THAT(watch.notes(), ElementsAre(HasSubstr("the second view is late, by 3")));
     }
   }
   EXPECT_FALSE(watch.is_doubtful());

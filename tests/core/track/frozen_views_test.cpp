@@ -97,7 +97,8 @@ TEST_F(FrozenViewsTest, AViewThatIsClippedWhereTheOtherMovesIsNoFault) {
     Frame frame = pair_.frame(260 + 5 * i);
     if (i > 5) cv::add(frame.views[1].color, cv::Scalar::all(215), frame.views[1].color);
     const FrameFault fault = check(noisy(frame, 3, static_cast<std::uint64_t>(i)));
-    if (i != 6) EXPECT_EQ(fault, FrameFault::none) << "frame " << i;  // 6: a jump of brightness
+    if (i == 6) continue;  // a jump of brightness
+    EXPECT_EQ(fault, FrameFault::none) << "frame " << i;
   }
 }
 

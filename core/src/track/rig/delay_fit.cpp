@@ -46,8 +46,9 @@ Delay fit_delay(std::span<const RowMotion> frames) {
   return {value[1], std::sqrt(covariance(1, 1))};
 }
 
-bool exceeds(const Delay& delay, double sign, double least, double sure) {
-  return sign * delay.seconds - sure * delay.sigma > least;
+/// Returns whether a delay has a sign, is at least so long, and so many standard deviations.
+bool is_sure(const Delay& delay, double sign, double least, double sigmas) {
+  return sign * delay.seconds > std::max(least, sigmas * delay.sigma);
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ Delay DelayFit::estimate() const {
 }
 
 std::optional<Delay> DelayFit::beyond(double least) const {
-  constexpr double kSure = 4, kSureInHalf = 2;  // standard deviations
+  constexpr double kSure = 2.5, kSureInHalf = 1.2;  // standard deviations
   constexpr double kLeastSeconds = 0.6;
   if (frames_.size() < kFewestFrames || frames_.back().time - frames_.front().time < kLeastSeconds)
     return {};
@@ -74,9 +75,9 @@ std::optional<Delay> DelayFit::beyond(double least) const {
   const std::size_t half = all.size() / 2;
   const Delay delay = fit_delay(span);
   const double sign = delay.seconds < 0 ? -1 : 1;
-  const bool sure = exceeds(delay, sign, least, kSure) &&
-                    exceeds(fit_delay(span.first(half)), sign, least, kSureInHalf) &&
-                    exceeds(fit_delay(span.subspan(half)), sign, least, kSureInHalf);
+  const bool sure = is_sure(delay, sign, least, kSure) &&
+                    is_sure(fit_delay(span.first(half)), sign, least / 2, kSureInHalf) &&
+                    is_sure(fit_delay(span.subspan(half)), sign, least / 2, kSureInHalf);
   return sure ? std::optional(delay) : std::nullopt;
 }
 

@@ -1,10 +1,13 @@
 #include "track/rig/model_rows.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "camera/lens_map.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -13,11 +16,25 @@ constexpr std::size_t kFewestPoints = 60, kMostPoints = 250;  // points
 
 // Places of the search, in units of x/z and y/z: a hand at 0.5 m is 0.35 long.
 constexpr float kShiftStep = 0.005F;
-constexpr int kRowSteps = 16, kColumnSteps = 2;  // steps to each side
+constexpr int kRowSteps = 12, kColumnSteps = 4;  // steps to each side
+
+/// How fast a surface moves across the rows by where the first image shows it.
+struct RowSpeeds {
+  Eigen::Vector3d factors;  ///< of 1, x and y, in pixels
+  double typical = 0;       ///< signed root mean square, per second
+
+  /// Returns a point's speed against the typical one.
+  float share(const Eigen::Vector2f& pixel) const {
+    if (typical == 0) return 1;
+    const Eigen::Vector3d at(1, double{pixel.x()}, double{pixel.y()});
+    return static_cast<float>(std::clamp(factors.dot(at) / typical, -3.0, 3.0));
+  }
+};
 
 /// A point of the first image with what it shows, in the second.
 struct SeenPoint {
   float grey;
+  float speed;  ///< against the typical one
   PointPair pair;
 };
 
@@ -28,12 +45,14 @@ float green_at(const cv::Mat& image, const Eigen::Vector2f& at) {
   return image.ptr<cv::Vec3b>(y)[x][1];
 }
 
-/// Returns the correlation of the samples with the second image, moved along and across the rows.
+/// Returns the correlation of the samples with the second image, moved along the rows, and across
+/// them by their speed.
 double correlation(const std::vector<SeenPoint>& samples, const cv::Mat& second, float along,
                    float across) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
-  for (const auto& [grey, pair] : samples) {
-    const float other = green_at(second, pair.other + along * pair.along + across * pair.across);
+  for (const auto& [grey, speed, pair] : samples) {
+    const float other =
+        green_at(second, pair.other + along * pair.along + across * speed * pair.across);
     if (other < 0) continue;
     const double x = grey, y = other;
     n += 1;
@@ -48,39 +67,33 @@ double correlation(const std::vector<SeenPoint>& samples, const cv::Mat& second,
   return variances > 0 ? (ab - a * b / n) / std::sqrt(variances) : 0;
 }
 
-/// Returns the mean height y/z of the scene's landmarks in a camera.
-double mean_height(const Scene& scene, const TileCamera& camera, const Eigen::VectorXd& state) {
-  const Eigen::Matrix3Xd points = camera.camera_from_world * scene.landmarks(state);
-  return (points.row(1).array() / points.row(2).array()).mean();
+/// Fits the speeds of a model's landmarks. A hand also turns.
+RowSpeeds row_speeds(const LensMap& lens, const Eigen::Matrix3Xd& now,
+                     const Eigen::Matrix3Xd& before, double seconds) {
+  Eigen::MatrixX3d places(now.cols(), 3);
+  Eigen::VectorXd speeds(now.cols());
+  for (Eigen::Index i = 0; i < now.cols(); ++i) {
+    const Eigen::Vector2d ray = now.col(i).hnormalized(), earlier = before.col(i).hnormalized();
+    const ImagePoint pixel =
+        image_point_along(lens, static_cast<float>(ray.x()), static_cast<float>(ray.y()));
+    places.row(i) << 1, double{pixel.x}, double{pixel.y};
+    speeds[i] = (ray.y() - earlier.y()) / seconds;
+  }
+  const Eigen::Vector3d factors = places.completeOrthogonalDecomposition().solve(speeds);
+  const Eigen::VectorXd fitted = places * factors;
+  const double typical = std::sqrt(fitted.squaredNorm() / static_cast<double>(fitted.size()));
+  return {factors, fitted.sum() < 0 ? -typical : typical};
 }
 
-}  // namespace
-
-std::optional<RowMotion> ModelRows::next(const Frame& frame, const TileMaker& tiles,
-                                         const Eigen::VectorXd& state) {
-  const auto before = std::exchange(before_, Moment{frame.time, state});
-  const auto shows = [](const View& view) { return view.color.type() == CV_8UC3; };
-  if (!std::ranges::all_of(frame.views, shows)) return {};
-  if (++frames_ % 2 != 0 || !before || !(frame.time > before->time)) return {};
-  const Observation header = tiles.plan(frame, state).header;
-  const auto rows = header.rectified ? rows_in(frame, tiles, header, state) : std::nullopt;
-  if (!rows) return {};
-  const TileCamera& camera = header.views[0].camera;
-  const double moved =
-      mean_height(scene_, camera, state) - mean_height(scene_, camera, before->state);
-  return RowMotion{frame.time, moved / (frame.time - before->time), *rows};
-}
-
-std::optional<double> ModelRows::rows_in(const Frame& frame, const TileMaker& tiles,
-                                         const Observation& header, const Eigen::VectorXd& state) {
+/// Returns how far the second image shows the typical point lower, in units of y/z.
+std::optional<double> rows_off(const Frame& frame, const std::vector<PointPair>& pairs,
+                               const RowSpeeds& speeds) {
   constexpr double kAlike = 0.6;  // correlation
-  sampler_.draw(header, state);
-  const std::vector<PointPair> pairs = sampler_.pairs(tiles.resamplers(), 1);
   const std::size_t step = pairs.size() / kMostPoints + 1;
   std::vector<SeenPoint> samples;
   for (std::size_t i = 0; i < pairs.size(); i += step) {
     const float grey = green_at(frame.views[0].color, pairs[i].first);
-    if (grey >= 0) samples.push_back({grey, pairs[i]});
+    if (grey >= 0) samples.push_back({grey, speeds.share(pairs[i].first), pairs[i]});
   }
   if (samples.size() < kFewestPoints) return {};
   std::array<double, 2 * kRowSteps + 1> best{};
@@ -96,6 +109,26 @@ std::optional<double> ModelRows::rows_in(const Frame& frame, const TileMaker& ti
   const double bend = peak[-1] - 2 * peak[0] + peak[1];
   const double part = bend < 0 ? std::clamp(0.5 * (peak[-1] - peak[1]) / bend, -0.5, 0.5) : 0;
   return double{kShiftStep} * (static_cast<double>(peak - best.begin()) - kRowSteps + part);
+}
+
+}  // namespace
+
+std::optional<RowMotion> ModelRows::next(const Frame& frame, const TileMaker& tiles,
+                                         const Eigen::VectorXd& state) {
+  constexpr int kEvery = 3;
+  const auto before = std::exchange(before_, Moment{frame.time, state});
+  const auto shows = [](const View& view) { return view.color.type() == CV_8UC3; };
+  if (++frames_ % kEvery != 0 || !before || !(frame.time > before->time)) return {};
+  if (scene_.landmark_names().size() < 3 || !std::ranges::all_of(frame.views, shows)) return {};
+  const Observation header = tiles.plan(frame, state).header;
+  if (!header.rectified) return {};
+  sampler_.draw(header, state);
+  const Eigen::Isometry3d& camera_from_world = header.views[0].camera.camera_from_world;
+  const RowSpeeds speeds =
+      row_speeds(tiles.resamplers()[0].lens(), camera_from_world * scene_.landmarks(state),
+                 camera_from_world * scene_.landmarks(before->state), frame.time - before->time);
+  const auto rows = rows_off(frame, sampler_.pairs(tiles.resamplers(), 1), speeds);
+  return rows ? std::optional(RowMotion{frame.time, speeds.typical, *rows}) : std::nullopt;
 }
 
 }  // namespace hypotrack::internal

@@ -20,7 +20,7 @@ class ModelRows {
   /// The scene must outlive the object.
   explicit ModelRows(const Scene& scene) : scene_(scene), sampler_(scene) {}
 
-  /// Takes the next frame and its state. Returns a measurement in every other frame, if both views
+  /// Takes the next frame and its state. Returns a measurement in every third frame, if both views
   /// surely show the models and the frame before had them.
   std::optional<RowMotion> next(const Frame& frame, const TileMaker& tiles,
                                 const Eigen::VectorXd& state);
@@ -32,8 +32,6 @@ class ModelRows {
     double time;
     Eigen::VectorXd state;
   };
-  std::optional<double> rows_in(const Frame& frame, const TileMaker& tiles,
-                                const Observation& header, const Eigen::VectorXd& state);
 
   const Scene& scene_;
   ColorSampler sampler_;

@@ -80,8 +80,9 @@ void RigWatch::judge(int frame) {
 
 void RigWatch::look_at_motion(int frame, const RowMotion& motion) {
   delay_.add(motion);
-  // Pictures that are paired by their times are half a frame apart at most.
-  const double least = frame_time_ / 2;
+  // Pictures that are paired by their times are half a frame apart at most. A model that both views
+  // pull at shows less than the whole delay.
+  const double least = 0.4 * frame_time_;
   const auto late = delay_.beyond(least);
   if (late_ && !late) {
     const Delay now = delay_.estimate();
@@ -92,9 +93,9 @@ void RigWatch::look_at_motion(int frame, const RowMotion& motion) {
   if (!late || std::exchange(late_said_, true)) return;
   const double seconds = std::abs(late->seconds);
   notes_.push_back(fmt::format(
-      "frame {}: the {} view is {:.0f} ms ({:.1f} frames) late, judged by models that move. Their "
-      "depth is wrong while they move sideways, and frames count as uncertain. Start the cameras "
-      "together, or pair their pictures by time (`offset` of the source)",
+      "frame {}: the {} view is late, by {:.0f} ms ({:.1f} frames) or more, judged by models that "
+      "move. Depth is wrong while they move sideways, and frames count as uncertain. Start the "
+      "cameras together, or pair their pictures by time (`offset` of the source)",
       frame, late->seconds > 0 ? "second" : "first", 1000 * seconds, seconds / frame_time_));
 }
 
