@@ -39,7 +39,7 @@ std::optional<int> FrozenViews::next(const SmallPictures& now) {
 
 bool FrozenViews::is_frozen(std::size_t view, const SmallPictures& now) {
   constexpr int kOldest = 30;        // frames: light changes slowly
-  constexpr int kSureAge = 2;        // frames in which noise alone changes a picture
+  constexpr int kSureAge = 1;        // frames in which noise alone changed a picture
   constexpr std::size_t kTimes = 8;  // what moves, against what noise or encoding moves
   constexpr std::size_t kLarge = 4;  // fingers that move beside noise
   ViewState& own = views_[view];
