@@ -27,6 +27,7 @@ void tell_faults(Source& source, SceneTracker& tracker, const Frame& first) {
     if (fault != FrameFault::none && told.insert(fault).second)
       tell("note: frame {}: {}\n", frame->index, describe(fault, view));
   }
+  for (const std::string& note : tracker.take_rig_notes()) tell("note: {}\n", note);
 }
 
 }  // namespace hypotrack::app

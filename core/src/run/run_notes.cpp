@@ -12,6 +12,7 @@ namespace hypotrack::internal {
 void RunNotes::add(const Solution& solution, const ClockTimes& clock) {
   add_fault(solution);
   look_at_start(solution);
+  say_rig_notes();
   look_at_device(fmt::format("frame {}", solution.frame));
   say_plugin_lines();
   look_at_outputs(clock);
@@ -23,9 +24,13 @@ void RunNotes::add_fault(const Solution& solution) {
     watcher_.say(fmt::format("note: frame {}: {}", solution.frame, describe(fault, view)));
 }
 
+void RunNotes::say_rig_notes() {
+  for (const std::string& note : tracker_.take_rig_notes()) watcher_.say("note: " + note);
+}
+
 /// Says if detectors or pictures contradict what is found from a start that was given.
 void RunNotes::look_at_start(const Solution& solution) {
-  for (const std::string& note : tracker_.take_notes()) {
+  for (const std::string& note : tracker_.take_start_notes()) {
     watcher_.say("note: " + note);
     start_said_ = true;
   }

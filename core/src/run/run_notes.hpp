@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <set>
 #include <string>
 #include <utility>
@@ -36,6 +37,7 @@ class RunNotes {
 
  private:
   void add_fault(const Solution& solution);
+  void say_rig_notes();
   void look_at_start(const Solution& solution);
   void look_at_outputs(const ClockTimes& clock);
 

@@ -131,10 +131,11 @@ Solution Tracker::track(const Frame& frame, const StopTest& stop) {
 const Scene& Tracker::scene() const { return *impl_->scene.scene; }
 const std::vector<Camera>& Tracker::cameras() const { return impl_->cameras; }
 std::vector<std::string> Tracker::take_notes() {
-  std::vector<std::string> notes = impl_->scene.plugin_notes->take_lines();
-  if (impl_->tracker)
-    for (std::string& note : impl_->tracker->take_notes()) notes.push_back(std::move(note));
-  return notes;
+  std::vector<std::string> lines = impl_->scene.plugin_notes->take_lines();
+  if (!impl_->tracker) return lines;
+  for (const auto& notes : {impl_->tracker->take_start_notes(), impl_->tracker->take_rig_notes()})
+    for (const std::string& note : notes) lines.push_back("note: " + note);
+  return lines;
 }
 std::string Tracker::backend() const {
   return impl_->tracker ? impl_->tracker->backend() : "not chosen before the first frame";

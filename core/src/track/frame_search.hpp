@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -87,6 +88,8 @@ class FrameSearch {
   /// Learns colours from the frame prepared last. The shown models' poses must be surely right.
   void learn(const Frame& frame, const Eigen::VectorXd& state);
   void forget_colors() { photometric_.forget(); }
+  /// Takes by how much each view became brighter since the last frame.
+  void follow_brightness(std::span<const float> gains) { photometric_.follow(gains); }
 
   /// Returns the tiles of the frame prepared last, with highlights.
   Observation seen(const Frame& frame) const;

@@ -118,8 +118,11 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       smoother_(scene, parts.one_euro),
       smoothing_(parts.one_euro.enabled),
       seed_(seed) {
-  if (settings_.check_pictures && look_at_pictures(terms_))
+  if (settings_.check_pictures && look_at_pictures(terms_)) {
     picture_checks_.emplace(parts.cameras, joined_use(terms_).depth);
+    rig_ = RigWatch::make(parts.cameras);
+    if (rig_) model_rows_.emplace(scene);
+  }
   if (parts.begins_by_looking && !recovers())
     throw ConfigError(
         "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, "
@@ -146,7 +149,7 @@ SceneTracker::~SceneTracker() { end_job(); }
 std::string SceneTracker::backend() const { return finder_.search().cost().backend(); }
 
 Observation SceneTracker::seen(const Frame& frame) const {
-  return finder_.search().seen(brightness_.applied_to(frame));
+  return finder_.search().seen(steadied(frame));
 }
 
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
@@ -165,8 +168,9 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
     solution.fault_view = view;
     if (picture_checks_) brightness_.next(picture_checks_->jumps());
     if (!spoils_pictures(fault)) {
-      const Frame steady = brightness_.applied_to(frame);
+      const Frame steady = steadied(frame);
       naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
+      if (rig_) doubt_rig(steady, solution);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -178,8 +182,30 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
   return solution;
 }
 
+Frame SceneTracker::steadied(const Frame& frame) const {
+  const Frame steady = brightness_.applied_to(frame);
+  return rig_ ? rig_->applied_to(steady) : steady;
+}
+
+void SceneTracker::doubt_rig(const Frame& frame, Solution& solution) {
+  if (finder_.search().photometric().knows())
+    rig_->look_at_colors(solution.frame, finder_.search().second_view_colors());
+  if (solution.status == Status::tracked) {
+    const FrameSearch& search = finder_.search();
+    if (const auto motion = model_rows_->next(frame, search.tiles(), search.drawn(state_)))
+      rig_->look_at_motion(solution.frame, *motion);
+  } else {
+    model_rows_->skip();
+  }
+  if (!rig_->is_doubtful()) return;
+  for (Status& status : solution.models)
+    if (status == Status::tracked) status = Status::uncertain;
+  solution.status = worst(solution.models);
+}
+
 ViewFault SceneTracker::fault_of(const Frame& frame) {
   const ViewFault found = picture_checks_ ? picture_checks_->check(frame) : ViewFault{};
+  if (rig_ && !spoils_pictures(found.fault)) rig_->look(frame);
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
 }
 
@@ -200,6 +226,7 @@ void SceneTracker::find_or_leave_device(const Frame& frame, Solution& solution,
 void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record,
                         FrameTrace* trace) {
   if (job_.valid()) return wait_for_job(frame, solution);
+  if (picture_checks_) finder_.search().follow_brightness(picture_checks_->drifts());
   finder_.search().record(record ? &record->searches : nullptr);
   finder_.search().trace(trace, trace ? &frame : nullptr);
   Candidate best = follow(frame);

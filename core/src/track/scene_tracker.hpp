@@ -23,6 +23,8 @@
 #include "track/given_start.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
+#include "track/rig/model_rows.hpp"
+#include "track/rig/rig_watch.hpp"
 #include "track/search_space.hpp"
 #include "track/search_trace.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
@@ -67,11 +69,15 @@ class SceneTracker {
   std::string problem_of_start(const Frame& frame) const;
 
   /// Returns what the user should know of the start that was given, since the last call.
-  std::vector<std::string> take_notes() { return given_.take_notes(); }
+  std::vector<std::string> take_start_notes() { return given_.take_notes(); }
 
   /// Returns the tiles that the search of `frame`, the last one tracked, saw; with the highlights.
   Observation seen(const Frame& frame) const;
 
+  /// Returns what the pictures show to be wrong with the cameras, since the last call.
+  std::vector<std::string> take_rig_notes() {
+    return rig_ ? rig_->take_notes() : std::vector<std::string>();
+  }
   /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const;
   /// Returns the error after which the CPU took the place of a device; empty: there was none.
@@ -153,6 +159,11 @@ class SceneTracker {
   bool awaits(std::size_t model) const {
     return given_.expects(model) && !finder_.verifier().experienced(model);
   }
+  /// Watches the rig. Calls models uncertain that are tracked with cameras whose depth may be
+  /// wrong.
+  void doubt_rig(const Frame& frame, Solution& solution);
+  /// Returns a frame as it is searched: as bright as before, and as the calibration says.
+  Frame steadied(const Frame& frame) const;
   ModelFlags followed() const;
   /// Returns states from which the search of a frame may start. The middle one, which is in view,
   /// comes first.
@@ -173,6 +184,8 @@ class SceneTracker {
   CandidateFinder finder_;
   std::optional<PictureChecks> picture_checks_;
   SteadyBrightness brightness_;
+  std::optional<RigWatch> rig_;  ///< of a pair of views that are compared
+  std::optional<ModelRows> model_rows_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;

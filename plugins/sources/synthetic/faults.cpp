@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "hypotrack/error.hpp"
@@ -21,13 +23,28 @@ void check_frames(const FaultParams& fault, const ConfigNode& item) {
                   item.get("frames").where(), first, last));
 }
 
-/// Throws ConfigError if a key that has a value belongs to another kind.
+/// Throws ConfigError if a key that has a value belongs to other kinds.
 void check_use(const FaultParams& fault, const ConfigNode& item, const char* key, bool has_value,
-               FaultKind kind) {
-  if (fault.kind == kind || !has_value) return;
+               std::initializer_list<FaultKind> kinds) {
+  if (!has_value || std::ranges::find(kinds, fault.kind) != kinds.end()) return;
   const auto name = [](FaultKind k) { return enum_names(k)[static_cast<std::size_t>(k)]; };
+  std::vector<std::string_view> names;
+  for (const FaultKind kind : kinds) names.push_back(name(kind));
   throw ConfigError(fmt::format("{}: `{}` belongs to the kind {}; leave it out of the kind {}",
-                                item.get(key).where(), key, name(kind), name(fault.kind)));
+                                item.get(key).where(), key, fmt::join(names, ", "),
+                                name(fault.kind)));
+}
+
+void check_keys(const FaultParams& fault, const ConfigNode& item) {
+  using enum FaultKind;
+  check_use(fault, item, "model", !fault.model.empty(), {absent});
+  check_use(fault, item, "view", fault.view.has_value(), {frozen, late, misaligned, exposure});
+  check_use(fault, item, "noise_sigma", fault.noise_sigma.has_value(), {frozen});
+  check_use(fault, item, "by", fault.by.has_value(), {late});
+  check_use(fault, item, "shift_px", fault.shift != Eigen::Vector2d(0, 0), {misaligned});
+  check_use(fault, item, "roll_deg", fault.roll.has_value(), {misaligned});
+  check_use(fault, item, "scale", fault.scale.has_value(), {misaligned});
+  check_use(fault, item, "gain", fault.gain.has_value(), {exposure});
 }
 
 std::size_t model_of(const ConfigNode& name, const Scene& scene) {
@@ -48,6 +65,26 @@ void check_exchange(const ConfigNode& item, const std::vector<Camera>& cameras) 
                     ": only two cameras with pictures of one size can be exchanged");
 }
 
+void add_noise(cv::Mat& image, double sigma, int frame, std::size_t view) {
+  cv::RNG random((static_cast<std::uint64_t>(frame) + 1) * 7919 + view);
+  cv::Mat noise(image.size(), CV_16SC3);
+  random.fill(noise, cv::RNG::NORMAL, 0, sigma);
+  cv::add(image, noise, image, cv::noArray(), CV_8U);
+}
+
+/// Moves what a picture shows: a point is turned and scaled about `center`, then shifted.
+void misalign(cv::Mat& image, const Eigen::Vector2d& center, const Eigen::Vector2d& shift,
+              double roll, double scale) {
+  if (image.empty()) return;
+  const Eigen::Matrix2d turn = scale * Eigen::Rotation2Dd(roll).toRotationMatrix();
+  const Eigen::Vector2d to = center + shift - turn * center;
+  const cv::Matx23d map(turn(0, 0), turn(0, 1), to.x(), turn(1, 0), turn(1, 1), to.y());
+  const int lookup = image.channels() == 3 ? cv::INTER_LINEAR : cv::INTER_NEAREST;
+  cv::Mat moved;
+  cv::warpAffine(image, moved, map, image.size(), lookup, cv::BORDER_REPLICATE);
+  image = moved;
+}
+
 View copy_of(const View& view) {
   return {view.color.clone(), view.mask.clone(), view.depth.clone()};
 }
@@ -56,17 +93,23 @@ View copy_of(const View& view) {
 
 Faults::Faults(const std::vector<FaultParams>& params, const ConfigNode& node, const Scene& scene,
                const std::vector<Camera>& cameras)
-    : models_(scene.items().size()) {
+    : models_(scene.items().size()), delivered_(cameras.size()) {
+  for (const Camera& camera : cameras) centers_.emplace_back(camera.cx, camera.cy);
   for (std::size_t i = 0; i < params.size(); ++i) {
     const ConfigNode item = node.at(i);
     check_frames(params[i], item);
-    check_use(params[i], item, "model", !params[i].model.empty(), FaultKind::absent);
-    check_use(params[i], item, "view", params[i].view.has_value(), FaultKind::frozen);
-    Fault fault{static_cast<int>(params[i].frames[0]),
-                static_cast<int>(params[i].frames[1]),
-                params[i].kind,
-                {},
-                {}};
+    check_keys(params[i], item);
+    Fault fault{.first = static_cast<int>(params[i].frames[0]),
+                .last = static_cast<int>(params[i].frames[1]),
+                .kind = params[i].kind,
+                .model = {},
+                .view = {},
+                .noise_sigma = params[i].noise_sigma.value_or(0),
+                .by = params[i].by.value_or(1),
+                .shift = params[i].shift,
+                .roll = params[i].roll.value_or(0),
+                .scale = params[i].scale.value_or(1),
+                .gain = params[i].gain.value_or(1)};
     if (!params[i].model.empty()) fault.model = model_of(item.get("model"), scene);
     if (params[i].view) fault.view = static_cast<std::size_t>(*params[i].view);
     if (fault.view && *fault.view >= cameras.size())
@@ -83,7 +126,8 @@ Faults::Faults(const std::vector<FaultParams>& params, const ConfigNode& node, c
 }
 
 void Faults::add_absence(int first, int last) {
-  faults_.push_back({first, last, FaultKind::absent, {}, {}});
+  faults_.push_back(
+      {.first = first, .last = last, .kind = FaultKind::absent, .model = {}, .view = {}});
 }
 
 bool Faults::holds(FaultKind kind, int frame, std::size_t part) const {
@@ -106,7 +150,20 @@ std::vector<bool> Faults::absent(int frame) const {
   return absent;
 }
 
-void Faults::apply(int frame, std::vector<View>& views) {
+void Faults::delay(int frame, std::vector<View>& views) {
+  for (const Fault& fault : faults_) {
+    if (fault.kind != FaultKind::late) continue;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      if (!fault.concerns(v)) continue;
+      std::deque<View>& delivered = delivered_[v];
+      delivered.push_back(copy_of(views[v]));
+      if (std::ssize(delivered) > fault.by + 1) delivered.pop_front();
+      if (frame >= fault.first && frame <= fault.last) views[v] = copy_of(delivered.front());
+    }
+  }
+}
+
+void Faults::freeze(int frame, std::vector<View>& views) {
   const int next = next_delivered(frame + 1);
   kept_.resize(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -116,6 +173,33 @@ void Faults::apply(int frame, std::vector<View>& views) {
       kept_[v] = copy_of(views[v]);
     }
   }
+}
+
+void Faults::spoil(int frame, std::vector<View>& views) const {
+  for (const Fault& fault : faults_) {
+    if (frame < fault.first || (frame > fault.last && fault.kind != FaultKind::exposure)) continue;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      if (!fault.concerns(v)) continue;
+      if (fault.kind == FaultKind::frozen && fault.noise_sigma > 0)
+        add_noise(views[v].color, fault.noise_sigma, frame, v);
+      if (fault.kind == FaultKind::misaligned)
+        for (cv::Mat* image : {&views[v].color, &views[v].mask, &views[v].depth})
+          misalign(*image, centers_[v], fault.shift, fault.roll, fault.scale);
+      if (fault.kind == FaultKind::exposure) {
+        const double share = fault.last > fault.first ? static_cast<double>(frame - fault.first) /
+                                                            (fault.last - fault.first)
+                                                      : 1.0;
+        const double gain = 1 + std::min(share, 1.0) * (fault.gain - 1);
+        views[v].color.convertTo(views[v].color, -1, gain);
+      }
+    }
+  }
+}
+
+void Faults::apply(int frame, std::vector<View>& views) {
+  delay(frame, views);
+  freeze(frame, views);
+  spoil(frame, views);
   if (holds(FaultKind::exchanged, frame)) std::swap(views[0], views[1]);
   if (!holds(FaultKind::black, frame)) return;
   for (View& view : views)

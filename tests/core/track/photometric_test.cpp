@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 
@@ -133,6 +134,16 @@ TEST(PhotometricMatch, BeginsWithWhatAStartThatIsNearlyRightShows) {
   for (const double level : {70, 192}) {
     EXPECT_EQ(mapped(begun, fixture.plan, level), mapped(learned, fixture.plan, level));
   }
+}
+
+TEST(PhotometricMatch, FollowsExposuresThatChange) {
+  const MatchedBox fixture;
+  PhotometricMatch match(fixture.scene, fixture.settings);
+  fixture.learn(match, fixture.frame(1.1, 4));
+  const std::array<float, 2> gains{0.9F, 0.8F};
+  match.follow(gains);
+  for (const double level : {70, 110, 150})
+    EXPECT_NEAR(mapped(match, fixture.plan, 0.8 * (1.1 * level + 4)), 0.9 * level, 1);
 }
 
 TEST(PhotometricMatch, BeginsAnewAfterItWasToldToForget) {

@@ -166,6 +166,8 @@ TEST_F(PictureChecksTest, JumpsOfBrightnessAreNamedOnce) {
   EXPECT_EQ(check(with_gain(295, 0.2, 0.4)), FrameFault::brightness);
   EXPECT_EQ(check(with_gain(300, 0.2, 0.4)), FrameFault::none);
   EXPECT_EQ(check(with_gain(305, 0.22, 0.37)), FrameFault::none) << "an exposure that adapts";
+  EXPECT_NEAR(checks_.drifts()[0], 1.1, 0.02);
+  EXPECT_NEAR(checks_.drifts()[1], 0.92, 0.02);
 }
 
 TEST_F(PictureChecksTest, AStillViewWhoseOtherBecomesBrighterIsNotFrozen) {

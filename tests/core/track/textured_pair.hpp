@@ -24,11 +24,13 @@ class TexturedPair {
     patch_ = texture(kSide, kSide, 2);
   }
 
+  static constexpr int kTop = (kHeight - kSide) / 2;
+
   /// A frame with the patch's left edge at this x of the first view; outside: without the patch.
-  Frame frame(int x, int wall = kWall, int patch = kPatch) const {
+  Frame frame(int x, int wall = kWall, int patch = kPatch, int y = kTop) const {
     Frame out;
     out.index = 0;
-    out.views = {View{picture(0, x)}, View{picture(wall, x - patch)}};
+    out.views = {View{picture(0, x, y)}, View{picture(wall, x - patch, y)}};
     return out;
   }
 
@@ -44,11 +46,10 @@ class TexturedPair {
     return out;
   }
 
-  cv::Mat picture(int shift, int x) const {
+  cv::Mat picture(int shift, int x, int y) const {
     cv::Mat out = wall_(cv::Rect(kWidth + shift, 0, kWidth, kHeight)).clone();
-    const cv::Rect place =
-        cv::Rect(x, (kHeight - kSide) / 2, kSide, kSide) & cv::Rect(0, 0, kWidth, kHeight);
-    if (!place.empty()) patch_(place - cv::Point(x, (kHeight - kSide) / 2)).copyTo(out(place));
+    const cv::Rect place = cv::Rect(x, y, kSide, kSide) & cv::Rect(0, 0, kWidth, kHeight);
+    if (!place.empty()) patch_(place - cv::Point(x, y)).copyTo(out(place));
     return out;
   }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,7 +30,8 @@ struct SpoiledFrame {
 using Spoil = std::function<void(Frame&, const Frame&)>;
 
 std::vector<SpoiledFrame> track_spoiled(int frames, int last, const Spoil& spoil,
-                                        std::vector<std::string> overrides = {}) {
+                                        std::vector<std::string> overrides = {},
+                                        int first = kSpoiledFrom) {
   PluginLoader plugins;
   overrides.insert(overrides.end(),
                    {"evaluate.backend=cpu",
@@ -45,7 +47,7 @@ std::vector<SpoiledFrame> track_spoiled(int frames, int last, const Spoil& spoil
     Frame frame = session.source->next().value();
     if (!tracker)
       tracker.emplace(scene, std::move(session.parts), initial_state(session, frame), session.seed);
-    if (i >= kSpoiledFrom && i <= last) spoil(frame, before);
+    if (i >= first && i <= last) spoil(frame, before);
     const Solution s = tracker->track(frame);
     out.push_back(
         {s.status, s.fault, s.fault_view,
@@ -117,6 +119,28 @@ TEST(Fault, OnePictureInBothViewsIsNotSearched) {
   });
 }
 
+void expect_right(const std::vector<SpoiledFrame>& frames, int first, int last) {
+  for (int i = first; i <= last; ++i) {
+    const SpoiledFrame& f = frames[static_cast<std::size_t>(i)];
+    EXPECT_EQ(f.status, Status::tracked) << "frame " << i << " of " << text_of_spoiled(frames);
+    EXPECT_LT(f.error_mm, 5) << "frame " << i << " of " << text_of_spoiled(frames);
+  }
+}
+
+TEST(Fault, AHandIsTrackedThoughAViewIsLower) {
+  const auto frames = track_spoiled(
+      30, 99,
+      [](Frame& frame, const Frame&) {
+        const cv::Matx23d down(1, 0, 0, 0, 1, 3);
+        cv::Mat moved;
+        cv::warpAffine(frame.views[1].color, moved, down, frame.views[1].color.size(),
+                       cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+        frame.views[1].color = moved;
+      },
+      {}, 0);
+  expect_right(frames, 3, 29);
+}
+
 constexpr int kLastBright = kSpoiledFrom + 9;
 constexpr int kAgain = 6;  // frames from a jump of brightness on in which the hand may be lost
 
@@ -135,14 +159,6 @@ std::vector<SpoiledFrame> track_brighter(double gain, std::size_t first_view) {
               i == kSpoiledFrom || i == kLastBright + 1 ? FrameFault::brightness : FrameFault::none)
         << "frame " << i << " of " << text_of_spoiled(frames);
   return frames;
-}
-
-void expect_right(const std::vector<SpoiledFrame>& frames, int first, int last) {
-  for (int i = first; i <= last; ++i) {
-    const SpoiledFrame& f = frames[static_cast<std::size_t>(i)];
-    EXPECT_EQ(f.status, Status::tracked) << "frame " << i << " of " << text_of_spoiled(frames);
-    EXPECT_LT(f.error_mm, 5) << "frame " << i << " of " << text_of_spoiled(frames);
-  }
 }
 
 TEST(Fault, AHandIsTrackedAcrossJumpsOfBrightness) {

@@ -127,6 +127,10 @@ struct ColorSampler::Impl {
   Observation grid;  // cameras only
   FrameProjection projection;
 
+  /// Calls visit(x, y, at) with the grid's points that are sampled, and where another view has
+  /// them.
+  template <class Visit>
+  void for_pairs(std::size_t other, const Visit& visit) const;
   /// Takes samples; `here` and `there` look up the two views at positions of their grids.
   template <class LookUp>
   ColorSamples take(const LookUp& here, const LookUp& there, std::size_t other,
@@ -165,31 +169,55 @@ ColorSamples ColorSampler::take(const Observation& tiles, std::size_t other,
                      with_normals);
 }
 
-template <class LookUp>
-ColorSamples ColorSampler::Impl::take(const LookUp& here, const LookUp& there, std::size_t other,
-                                      bool with_normals) const {
-  ColorSamples samples;
-  const auto& views = grid.views;
+template <class Visit>
+void ColorSampler::Impl::for_pairs(std::size_t other, const Visit& visit) const {
   const StereoMap map = stereo_map(grid, 0, static_cast<int>(other));
   const DepthTile& tile = drawer.tiles()[0];
-  std::vector<Eigen::Vector3f> normals;
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0 + (tile.x0 + y) % 2; x < tile.x1; x += 2) {
       if (!is_interior(tile, x, y)) continue;
       scalar::Mapped<float> at{};
-      if (!seen_by_other(drawer.tiles()[other], map, x, y, depth_at(tile, x, y), at)) continue;
-      std::array<float, 3> first{}, second{};
-      if (!here(static_cast<float>(x), static_cast<float>(y), first)) continue;
-      if (!there(at.u, at.v, second)) continue;
-      if (with_normals) normals.push_back(normal_at(tile, views[0].camera, x, y));
-      for (std::size_t i = 0; i < 3; ++i) {
-        samples.first[i].push_back(first[i]);
-        samples.other[i].push_back(second[i]);
-      }
+      if (seen_by_other(drawer.tiles()[other], map, x, y, depth_at(tile, x, y), at))
+        visit(x, y, at);
     }
   }
+}
+
+template <class LookUp>
+ColorSamples ColorSampler::Impl::take(const LookUp& here, const LookUp& there, std::size_t other,
+                                      bool with_normals) const {
+  ColorSamples samples;
+  std::vector<Eigen::Vector3f> normals;
+  for_pairs(other, [&](int x, int y, const scalar::Mapped<float>& at) {
+    std::array<float, 3> first{}, second{};
+    if (!here(static_cast<float>(x), static_cast<float>(y), first)) return;
+    if (!there(at.u, at.v, second)) return;
+    if (with_normals) normals.push_back(normal_at(drawer.tiles()[0], grid.views[0].camera, x, y));
+    for (std::size_t i = 0; i < 3; ++i) {
+      samples.first[i].push_back(first[i]);
+      samples.other[i].push_back(second[i]);
+    }
+  });
   samples.normals = columns(normals);
   return samples;
+}
+
+std::vector<PointPair> ColorSampler::pairs(std::span<const Resampler> cameras,
+                                           std::size_t other) const {
+  const TileIntrinsics here = intrinsics(impl_->grid.views[0].camera);
+  const TileIntrinsics there = intrinsics(impl_->grid.views[other].camera);
+  const auto point = [&](std::size_t view, const TileIntrinsics& tile, float x, float y) {
+    const ImagePoint p = image_point(cameras[view].lens(), tile, x, y);
+    return Eigen::Vector2f(p.x, p.y);
+  };
+  std::vector<PointPair> out;
+  impl_->for_pairs(other, [&](int x, int y, const scalar::Mapped<float>& at) {
+    const Eigen::Vector2f second = point(other, there, at.u, at.v);
+    out.push_back({point(0, here, static_cast<float>(x), static_cast<float>(y)), second,
+                   (point(other, there, at.u + 1, at.v) - second) * there.fx,
+                   (point(other, there, at.u, at.v + 1) - second) * there.fy});
+  });
+  return out;
 }
 
 ColorSampler::NormalGrid ColorSampler::normals(std::size_t view) const {

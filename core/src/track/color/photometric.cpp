@@ -117,6 +117,14 @@ void PhotometricMatch::update(Learned& learned, const ColorMap& found, double di
   }
 }
 
+void PhotometricMatch::follow(std::span<const float> gains) {
+  for (std::size_t i = 0; i < views_.size() && i + 1 < gains.size(); ++i)
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      views_[i].map.gain[channel] *= gains[0] / gains[i + 1];
+      views_[i].map.offset[channel] *= gains[0];
+    }
+}
+
 bool PhotometricMatch::knows() const {
   return std::ranges::any_of(views_, [](const Learned& l) { return l.frames > 0; });
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -54,6 +55,10 @@ class PhotometricMatch {
   /// nothing with one view or with match off.
   void learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
              const Eigen::VectorXd& state);
+
+  /// Takes by how much each view became brighter since the last frame, so that the maps need not
+  /// learn it.
+  void follow(std::span<const float> gains);
 
   void forget() { views_.clear(); }
   /// Returns the map of a view's colours to the first's (view from 1 on); identity if unknown.

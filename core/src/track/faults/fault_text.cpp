@@ -37,6 +37,10 @@ std::string describe(FrameFault fault, int view) {
     case FrameFault::none:
       return {};
     case FrameFault::frozen:
+      if (view < 0)
+        return fmt::format(
+            "all views repeat earlier pictures; {}. Check how the pictures are taken and stored",
+            kSkipped);
       return fmt::format(
           "{} repeats an earlier picture while another view "
           "moves; {}. Check this camera and how "

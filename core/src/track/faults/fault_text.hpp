@@ -12,7 +12,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 bool spoils_pictures(FrameFault fault);
 
 /// Describes a fault for the user: what was found, what the tracker does, and what to do. `view` is
-/// the view that has it. Empty for FrameFault::none.
+/// the view that has it, negative: all. Empty for FrameFault::none.
 std::string describe(FrameFault fault, int view);
 
 }  // namespace internal

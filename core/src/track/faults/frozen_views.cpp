@@ -1,96 +1,148 @@
 #include "track/faults/frozen_views.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
+#include <span>
 #include <utility>
-
-#include "hypotrack/back_project.hpp"
 
 namespace hypotrack::internal {
 namespace {
 
-/// Returns whether two pictures of one view are equal but for rounding, as of a video's codec.
-bool is_still(const SmallPicture& a, const SmallPicture& b) {
-  constexpr int kRounding = SmallPicture::kLevel / 2;
-  return a.cells.size() == b.cells.size() &&
-         std::equal(a.cells.begin(), a.cells.end(), b.cells.begin(),
-                    [](int from, int to) { return std::abs(from - to) <= kRounding; });
+constexpr int kNoisy = 3;  // frames in a row that make sure that a camera has noise
+
+/// Returns the number of cells that move where a finger does.
+std::size_t cells_of_a_finger(const SmallPicture& picture) {
+  constexpr std::size_t kShare = 700;  // one of so many cells
+  return std::max<std::size_t>(4, picture.cells.size() / kShare);
 }
 
-bool is_inside(const Camera& camera, const Eigen::Vector2d& pixel) {
-  return pixel.x() > 0 && pixel.y() > 0 && pixel.x() < camera.width - 1 &&
-         pixel.y() < camera.height - 1;  // false for NaN
+bool is_alike(const std::shared_ptr<const SmallPicture>& a,
+              const std::shared_ptr<const SmallPicture>& b) {
+  return a && b && a->cells.size() == b->cells.size();
 }
 
 }  // namespace
 
 FrozenViews::FrozenViews(std::vector<Camera> cameras)
     : cameras_(std::move(cameras)),
-      since_(cameras_.size()),
-      seen_(cameras_.size() * cameras_.size()) {}
+      views_(cameras_.size()),
+      sights_(cameras_.size() * cameras_.size()) {}
 
-std::optional<std::size_t> FrozenViews::next(const SmallPictures& now) {
-  std::optional<std::size_t> frozen;
+std::optional<int> FrozenViews::next(const SmallPictures& now) {
+  std::optional<int> frozen;
   if (now.size() != cameras_.size()) return frozen;  // the search refuses such a frame
-  for (std::size_t v = 0; v < now.size(); ++v) {
-    if (!now[v]) continue;
-    SmallPictures& since = since_[v];
-    if (since.empty() || !since[v] || !is_still(*since[v], *now[v])) {
-      since = now;
-      continue;
-    }
-    for (std::size_t w = 0; w < now.size() && !frozen; ++w)
-      if (w != v && now[w] && since[w] && moves(w, v, *since[w], *now[w])) frozen = v;
+  count_repeats(now);
+  for (std::size_t v = 0; v < now.size(); ++v)
+    if (now[v] && is_frozen(v, now) && !frozen) frozen = static_cast<int>(v);
+  before_ = now;
+  return all_repeat(now) ? kAll : frozen;
+}
+
+bool FrozenViews::is_frozen(std::size_t view, const SmallPictures& now) {
+  constexpr int kOldest = 30;        // frames: light changes slowly
+  constexpr int kSureAge = 1;        // frames in which noise alone changed a picture
+  constexpr std::size_t kTimes = 8;  // what moves, against what noise or encoding moves
+  constexpr std::size_t kLarge = 4;  // fingers that move beside noise
+  ViewState& own = views_[view];
+  if (own.since.empty() || !is_alike(own.since[view], now[view])) {
+    own.since = now;
+    own.age = 0;
+    own.moved_at.clear();
+    return false;
   }
+  const std::size_t finger = cells_of_a_finger(*now[view]);
+  const bool still = is_still(*own.since[view], *now[view]);
+  std::vector<std::size_t> moved;
+  if (!still) moved = moved_cells(*own.since[view], *now[view]);
+  const bool noise = 4 * moved.size() < finger;
+  bool frozen = false;
+  if (still)
+    frozen = moves_beside(view, now, finger, own.noisy < kNoisy, false);
+  else if (noise && own.age >= kSureAge)
+    frozen =
+        moves_beside(view, now, std::max(kLarge * finger, kTimes * (moved.size() + 1)), true, true);
+  if (!frozen) {
+    ++own.clock;
+    if (!moved.empty()) own.moved_at.resize(now[view]->cells.size(), -1);
+    for (const std::size_t cell : moved) own.moved_at[cell] = own.clock;
+  }
+  own.age = still || frozen || (noise && own.age < kOldest) ? own.age + 1 : 0;
+  if (own.age == 0) own.since = now;
   return frozen;
 }
 
-bool FrozenViews::moves(std::size_t view, std::size_t other, const SmallPicture& before,
-                        const SmallPicture& now) {
-  constexpr int kMotion = 6 * SmallPicture::kLevel;  // well above noise
-  constexpr int kClipped = 250 * SmallPicture::kLevel;
-  constexpr std::size_t kLeast = 700;  // one of so many cells, a finger's motion
-  if (before.cells.size() != now.cells.size() || is_still(before, now)) return false;
-  const std::size_t enough = std::max<std::size_t>(4, now.cells.size() / kLeast);
-  // A picture that becomes brighter does not move.
-  const float gain = gain_between(before, now);
-  const auto moved = [&](std::size_t i) {
-    const std::uint16_t from = before.cells[i], to = now.cells[i];
-    return std::max(from, to) < kClipped &&
-           std::abs(static_cast<float>(to) - gain * static_cast<float>(from)) > kMotion;
-  };
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < now.cells.size(); ++i) count += moved(i);
-  if (count < enough) return false;
-  const std::vector<bool>& seen = seen_by(other, view, now);
-  count = 0;
-  for (std::size_t i = 0; i < now.cells.size(); ++i) count += seen[i] && moved(i);
-  return count >= enough;
+bool FrozenViews::moves_beside(std::size_t view, const SmallPictures& now, std::size_t least,
+                               bool clips, bool recent) {
+  const SmallPictures& since = views_[view].since;
+  for (std::size_t other = 0; other < now.size(); ++other) {
+    if (other == view || !is_alike(since[other], now[other])) continue;
+    if (is_still(*since[other], *now[other])) continue;
+    const std::vector<std::size_t> moved = moved_cells(*since[other], *now[other]);
+    if (moved.size() < std::max(least, cells_of_a_finger(*now[other]))) continue;
+    const CellSight& places = sight(other, view, now);
+    const auto count = std::ranges::count_if(moved, [&](std::size_t cell) {
+      return shows(view, *now[view], places.of(cell), clips, recent);
+    });
+    if (static_cast<std::size_t>(count) >= least) return true;
+  }
+  return false;
 }
 
-const std::vector<bool>& FrozenViews::seen_by(std::size_t other, std::size_t view,
-                                              const SmallPicture& now) {
-  // The nearest hands, and far behind them. What is seen there is also seen in between.
-  constexpr std::array<double, 2> kDistances{0.25, 1000};
-  std::vector<bool>& seen = seen_[view * cameras_.size() + other];
-  if (seen.size() == now.cells.size()) return seen;
-  Eigen::Matrix2Xd pixels(2, static_cast<Eigen::Index>(now.cells.size()));
-  for (int y = 0; y < now.height; ++y)
-    for (int x = 0; x < now.width; ++x)
-      pixels.col(Eigen::Index{y} * now.width + x) << now.cell * (x + 0.5) - 0.5,
-          now.cell * (y + 0.5) - 0.5;
-  const Eigen::Matrix3Xd rays = back_project(cameras_[view], pixels);
-  const Eigen::Isometry3d world_from_camera = cameras_[view].camera_from_world.inverse();
-  seen.resize(now.cells.size());
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    seen[i] = std::ranges::all_of(kDistances, [&](double distance) {
-      const Eigen::Vector3d ray = rays.col(static_cast<Eigen::Index>(i));
-      return is_inside(cameras_[other],
-                       project(cameras_[other], world_from_camera * (distance * ray)));
-    });
-  return seen;
+bool FrozenViews::shows(std::size_t view, const SmallPicture& picture, CellSight::Cells places,
+                        bool clips, bool recent) const {
+  constexpr int kRecent = 30;  // frames
+  const ViewState& own = views_[view];
+  const std::span all(places, CellSight::kDistances);
+  if (std::ranges::find(all, CellSight::kOutside) != all.end()) return false;
+  const auto cell = [&](std::int32_t place) { return static_cast<std::size_t>(place); };
+  if (clips && std::ranges::any_of(
+                   all, [&](std::int32_t place) { return is_clipped(picture.cells[cell(place)]); }))
+    return false;
+  if (!recent) return true;
+  return !own.moved_at.empty() && std::ranges::any_of(all, [&](std::int32_t place) {
+    const int at = own.moved_at[cell(place)];
+    return at >= 0 && own.clock - at < kRecent;
+  });
+}
+
+void FrozenViews::count_repeats(const SmallPictures& now) {
+  for (std::size_t v = 0; v < now.size() && !before_.empty(); ++v) {
+    ViewState& own = views_[v];
+    if (!is_alike(before_[v], now[v])) {
+      own.noisy = own.repeated = 0;
+      continue;
+    }
+    const std::size_t different = different_cells(*before_[v], *now[v]);
+    if (different == 0) {
+      ++own.repeated;
+      continue;
+    }
+    changed_ = true;
+    // Frames that a recorder repeats at a higher rate begin anew each time.
+    if (std::exchange(own.repeated, 0) > 0) own.noisy = 0;
+    const auto clear =
+        std::ranges::count_if(now[v]->cells, [](std::uint16_t cell) { return !is_clipped(cell); });
+    const bool noisy = 2 * different > static_cast<std::size_t>(clear);
+    own.noisy = noisy ? own.noisy + 1 : 0;
+  }
+}
+
+bool FrozenViews::all_repeat(const SmallPictures& now) const {
+  constexpr int kRepeated = 3;  // frames: a change of the frame rate repeats single ones
+  constexpr int kLong = 15;     // frames in which pictures without noise may stand still
+  bool any = false;
+  for (std::size_t v = 0; v < now.size(); ++v) {
+    if (!now[v]) continue;
+    any = true;
+    if (views_[v].repeated < (views_[v].noisy >= kNoisy ? kRepeated : kLong)) return false;
+  }
+  return any && changed_;
+}
+
+const CellSight& FrozenViews::sight(std::size_t from, std::size_t to, const SmallPictures& now) {
+  std::optional<CellSight>& out = sights_[from * cameras_.size() + to];
+  if (!out || !out->fits(*now[from], *now[to]))
+    out.emplace(cameras_[from], *now[from], cameras_[to], *now[to]);
+  return *out;
 }
 
 }  // namespace hypotrack::internal

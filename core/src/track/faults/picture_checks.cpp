@@ -73,6 +73,7 @@ ViewFault PictureChecks::check(const Frame& frame) {
                       ? nullptr
                       : std::make_shared<const SmallPicture>(shrink(view.color)));
   jumps_.assign(now.size(), 1);
+  drifts_ = jumps_;
   ViewFault found = find(now);
   if (const auto view = with_depth_ ? unmeasured_view(frame) : std::nullopt)
     found = {FrameFault::black, *view};
@@ -88,7 +89,7 @@ ViewFault PictureChecks::find(const SmallPictures& now) {
     if (is_same(*now[0], *now[1])) return {FrameFault::same_picture, 1};
     if (order_->is_exchanged(*now[0], *now[1])) return {FrameFault::exchanged, 0};
   }
-  if (const auto frozen = frozen_.next(now)) return {FrameFault::frozen, static_cast<int>(*frozen)};
+  if (const auto frozen = frozen_.next(now)) return {FrameFault::frozen, *frozen};
   if (const auto view = jumping_view(now)) return {FrameFault::brightness, *view};
   return {};
 }
@@ -110,6 +111,7 @@ std::optional<int> PictureChecks::jumping_view(const SmallPictures& now) {
   for (std::size_t v = 0; v < std::min(now.size(), good_.size()); ++v) {
     if (!now[v] || !good_[v] || now[v]->cells.size() != good_[v]->cells.size()) continue;
     jumps_[v] = jump_between(*good_[v], *now[v]);
+    if (jumps_[v] == 1) drifts_[v] = gain_between(*good_[v], *now[v]);
     if (jumps_[v] != 1 && !first) first = static_cast<int>(v);
   }
   return first;

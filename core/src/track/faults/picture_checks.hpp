@@ -13,7 +13,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// A fault and the view that has it.
+/// A fault and the view that has it; -1: all.
 struct ViewFault {
   FrameFault fault = FrameFault::none;
   int view = 0;
@@ -32,19 +32,22 @@ class PictureChecks {
 
   /// Returns by how much each view of the last frame became brighter; 1: it did not jump.
   const std::vector<float>& jumps() const { return jumps_; }
+  /// Returns by how much each view became brighter without a jump since the last frame that can be
+  /// searched, as by an exposure that adapts; 1: unknown.
+  const std::vector<float>& drifts() const { return drifts_; }
 
  private:
   ViewFault find(const SmallPictures& now);
   /// Returns the first view whose share of black or white cells says that it shows nothing.
   std::optional<int> empty_view(const SmallPictures& now, double SmallPicture::*share) const;
-  /// Sets jumps_. Returns the first view that has one.
+  /// Sets jumps_ and drifts_. Returns the first view that has one.
   std::optional<int> jumping_view(const SmallPictures& now);
 
   bool with_depth_;
   FrozenViews frozen_;
   std::optional<ViewOrder> order_;  ///< of the first two views
   SmallPictures good_;              ///< of the last frame without such a fault; empty: none yet
-  std::vector<float> jumps_;
+  std::vector<float> jumps_, drifts_;
 };
 
 }  // namespace internal

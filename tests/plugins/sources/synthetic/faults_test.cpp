@@ -75,6 +75,41 @@ TEST(Faults, ViewsAreExchangedBlackenedAndFrozenAndTheTruthStays) {
   }
 }
 
+TEST(Faults, ViewsAreLateMisalignedDarkerAndFrozenWithNoise) {
+  const std::vector<Frame> all = frames_with("");
+  const std::vector<Frame> late = frames_with(
+      "{frames: [0, 9], kind: late, view: 1}, {frames: [3, 3], kind: late, view: 0, by: 3}");
+  const std::vector<Frame> lower =
+      frames_with("{frames: [1, 2], kind: misaligned, view: 1, shift_px: [0, 4]}");
+  const std::vector<Frame> darker =
+      frames_with("{frames: [1, 3], kind: exposure, view: 1, gain: 0.5}");
+  const std::vector<Frame> frozen =
+      frames_with("{frames: [2, 3], kind: frozen, view: 1, noise_sigma: 2}");
+  EXPECT_TRUE(same(late[0].views[1].color, all[0].views[1].color));
+  for (const std::size_t f : {1U, 2U, 4U}) {
+    EXPECT_TRUE(same(late[f].views[0].color, all[f].views[0].color));
+    EXPECT_TRUE(same(late[f].views[1].color, all[f - 1].views[1].color));
+    EXPECT_EQ(late[f].truth->state, all[f].truth->state);
+  }
+  EXPECT_TRUE(same(late[3].views[0].color, all[0].views[0].color));
+  EXPECT_TRUE(same(lower[1].views[0].color, all[1].views[0].color));
+  EXPECT_TRUE(
+      same(lower[1].views[1].color.rowRange(4, 200), all[1].views[1].color.rowRange(0, 196)));
+  EXPECT_TRUE(same(lower[3].views[1].color, all[3].views[1].color));
+  const auto brightness = [](const Frame& frame) {
+    return cv::sum(cv::mean(frame.views[1].color))[0];
+  };
+  EXPECT_EQ(brightness(darker[1]), brightness(all[1]));
+  EXPECT_NEAR(brightness(darker[2]), 0.75 * brightness(all[2]), 2);
+  EXPECT_NEAR(brightness(darker[4]), 0.5 * brightness(all[4]), 2);
+  cv::Mat noise[2];
+  for (const std::size_t f : {2U, 3U})
+    cv::absdiff(frozen[f].views[1].color, all[1].views[1].color, noise[f - 2]);
+  EXPECT_GT(cv::countNonZero(noise[0].reshape(1)), 100000);
+  EXPECT_LT(cv::mean(noise[0])[0], 3);
+  EXPECT_FALSE(same(noise[0], noise[1]));
+}
+
 TEST(Faults, MissingFramesLeaveAGapInTimeAndNotInTheNumbers) {
   Loaded loaded(kMoving +
                 "faults: [{frames: [1, 2], kind: missing}, {frames: [4, 9], kind: missing}]\n");
@@ -120,6 +155,8 @@ TEST(Faults, ExplainWhatIsWrongWithThem) {
               HasSubstr("`model` belongs to the kind absent; leave it out of the kind black"));
   EXPECT_THAT(message("{frames: [1, 2], kind: absent, view: 1}"),
               HasSubstr("`view` belongs to the kind frozen"));
+  EXPECT_THAT(message("{frames: [1, 2], kind: frozen, view: 1, gain: 0.5}"),
+              HasSubstr("`gain` belongs to the kind exposure; leave it out of the kind frozen"));
   EXPECT_THAT(message("{frames: [0, 2], kind: missing}"), HasSubstr("frame 0 cannot be missing"));
   EXPECT_THAT(message("{frames: [0, 2], kind: frozen}"),
               HasSubstr("no picture comes before frame 0"));

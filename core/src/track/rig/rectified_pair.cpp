@@ -1,0 +1,104 @@
+#include "track/rig/rectified_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "camera/rectification.hpp"
+#include "hypotrack/back_project.hpp"
+#include "tile/resample.hpp"
+
+namespace hypotrack::internal {
+namespace {
+
+constexpr double kWidth = 640;  // pixels: motion and rows are then known to half a pixel of 1280
+
+/// Directions at depth 1.
+struct Field {
+  Eigen::Vector2d lowest{1e9, 1e9}, highest{-1e9, -1e9};
+};
+
+/// Returns the directions that a camera sees, in its ideal camera.
+Field field_of(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal) {
+  constexpr double kWidest = 1.2;  // 50 degrees from the axis
+  const double right = camera.width - 1, bottom = camera.height - 1;
+  Eigen::Matrix2Xd border(2, 8);
+  border << 0, right / 2, right, 0, right, 0, right / 2, right,  //
+      0, 0, 0, bottom / 2, bottom / 2, bottom, bottom, bottom;
+  Field field;
+  const Eigen::Matrix3Xd rays = back_project(camera, border);
+  for (const auto& ray : rays.colwise()) {
+    const Eigen::Vector3d ideal = camera_from_ideal.transpose() * ray;
+    const Eigen::Vector2d at = ideal.head<2>() / ideal.z();
+    if (!at.allFinite() || ideal.z() <= 0) continue;
+    field.lowest = field.lowest.cwiseMin(at);
+    field.highest = field.highest.cwiseMax(at);
+  }
+  field.lowest = field.lowest.cwiseMax(-kWidest);
+  field.highest = field.highest.cwiseMin(kWidest);
+  return field;
+}
+
+}  // namespace
+
+std::optional<RectifiedPair> RectifiedPair::make(const std::array<Camera, 2>& cameras) {
+  const IdealRig rig = make_ideal_rig(cameras);
+  if (!rig.rectified) return std::nullopt;
+  Field field;
+  for (std::size_t v = 0; v < 2; ++v) {
+    const Field own = field_of(cameras[v], rig.camera_from_ideal[v]);
+    field.lowest = field.lowest.cwiseMin(own.lowest);
+    field.highest = field.highest.cwiseMax(own.highest);
+  }
+  const Eigen::Vector2d extent = field.highest - field.lowest;
+  RectifiedPair out;
+  out.focal_ = std::min(cameras[0].fx, kWidth / extent.maxCoeff());
+  if (!(out.focal_ > 0) || !(extent.minCoeff() > 0)) return std::nullopt;
+  out.baseline_ =
+      (rig.ideal_from_world[0].translation() - rig.ideal_from_world[1].translation()).norm();
+  out.center_ = -out.focal_ * field.lowest;
+  out.second_ = cameras[1];
+  out.second_from_small_ = rig.camera_from_ideal[1].topLeftCorner<2, 2>();
+  out.shrink_ = std::max(1, static_cast<int>(cameras[0].fx / out.focal_ + 0.1));
+  TileCamera small;
+  small.width = static_cast<int>(std::floor(out.focal_ * extent.x()));
+  small.height = static_cast<int>(std::floor(out.focal_ * extent.y()));
+  small.fx = small.fy = out.focal_;
+  small.cx = out.center_.x();
+  small.cy = out.center_.y();
+  for (std::size_t v = 0; v < 2; ++v) {
+    const ImageMap map = Resampler(cameras[v], rig.camera_from_ideal[v]).map(small);
+    const cv::Rect inside(1, 1, small.width, small.height);
+    const auto shrunken = [&](const cv::Mat& pixels) {
+      cv::Mat at;
+      pixels(inside).convertTo(at, CV_32F, 1.0 / out.shrink_, 0.5 / out.shrink_ - 0.5);
+      return at;
+    };
+    cv::convertMaps(shrunken(map.x), shrunken(map.y), out.x_[v], out.y_[v], CV_16SC2);
+  }
+  return out;
+}
+
+GreyPair RectifiedPair::resample(const Frame& frame) const {
+  GreyPair out;
+  for (std::size_t v = 0; v < 2; ++v) {
+    cv::Mat shrunken = frame.views[v].color, grey;
+    if (shrink_ > 1)
+      cv::resize(shrunken, shrunken, shrunken.size() / shrink_, 0, 0, cv::INTER_AREA);
+    cv::cvtColor(shrunken, grey, cv::COLOR_BGR2GRAY);
+    cv::remap(grey, out[v].full, x_[v], y_[v], cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    cv::resize(out[v].full, out[v].half, {}, 0.5, 0.5, cv::INTER_AREA);
+  }
+  return out;
+}
+
+cv::Matx23d RectifiedPair::displacement(double roll, double scale,
+                                        const Eigen::Vector2d& shift) const {
+  const Eigen::Matrix2d turn = (1 + scale) * Eigen::Rotation2Dd(roll).toRotationMatrix();
+  const Eigen::Vector2d center(second_.cx, second_.cy);
+  const Eigen::Vector2d to = center - turn * center + this->scale() * (second_from_small_ * shift);
+  return {turn(0, 0), turn(0, 1), to.x(), turn(1, 0), turn(1, 1), to.y()};
+}
+
+}  // namespace hypotrack::internal

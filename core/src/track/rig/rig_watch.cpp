@@ -1,0 +1,136 @@
+#include "track/rig/rig_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+#include <utility>
+
+namespace hypotrack::internal {
+namespace {
+
+constexpr double kSure = 4;        // standard deviations
+constexpr int kFewest = 12;        // matches: three for each number that is fitted
+constexpr int kInterval = 30;      // frames from one measurement to the next
+constexpr double kNearest = 0.25;  // metres
+
+bool is_pair(const Frame& frame) {
+  if (frame.views.size() != 2) return false;
+  return std::ranges::all_of(frame.views, [](const View& view) {
+    return view.color.type() == CV_8UC3 && !view.color.empty() && view.depth.empty();
+  });
+}
+
+/// Returns the brightness, of 255, that a map makes of a middle grey.
+double brightness_of(const ColorMap& colors) {
+  constexpr double kMiddle = 128;
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    sum += double{colors.gain[i]} * kMiddle + double{colors.offset[i]};
+  return sum / 3;
+}
+
+}  // namespace
+
+std::optional<RigWatch> RigWatch::make(const std::vector<Camera>& cameras) {
+  if (cameras.size() != 2) return std::nullopt;
+  auto pair = RectifiedPair::make({cameras[0], cameras[1]});
+  if (!pair) return std::nullopt;
+  return RigWatch(*std::move(pair));
+}
+
+void RigWatch::look(const Frame& frame) {
+  if (!is_pair(frame)) return;
+  const int number = frames_++;
+  if (number > 0 && frame.time > time_) frame_time_ = std::min(frame_time_, frame.time - time_);
+  time_ = frame.time;
+  if (number < next_) return;
+  next_ += std::clamp(next_, 1, kInterval);
+  constexpr double kRows = 0.06;  // of the height: 20 rows of 360
+  const GreyPair pictures = pair_.resample(frame);
+  const MatchRange range{pair_.disparity(kNearest),
+                         static_cast<int>(kRows * pictures[0].full.rows)};
+  fit_.add(match_rows(pictures, pair_.center(), range));
+  estimate_ = fit_.estimate();
+  if (estimate_.matches >= kFewest) judge(frame.index);
+}
+
+void RigWatch::judge(int frame) {
+  constexpr double kFar = 1.5;  // pixels from the epipolar lines, as `calibration check` has it
+  const double pixels = pair_.scale() * estimate_.row_error;
+  const double sure = pixels - kSure * pair_.scale() * estimate_.row_error_sigma;
+  const bool said = misaligned_ > 0;
+  if (sure < kFar && !said) return;
+  misaligned_ = pixels;
+  if (said) return;
+  const auto [rows, roll, scale] =
+      std::tuple(pair_.scale() * estimate_.rows, estimate_.roll * 180 / std::numbers::pi,
+                 100 * estimate_.scale);
+  notes_.push_back(fmt::format(
+      "frame {}: against the calibration, the second view is {:.1f} rows too {}, {:.2f} degrees "
+      "rolled {} and {:.1f} % too {}; that is {:.1f} px from the epipolar lines. Its pictures are "
+      "moved to fit{}. Check the cameras with `hypotrack calibration check`, and calibrate again",
+      frame, std::abs(rows), rows > 0 ? "low" : "high", std::abs(roll),
+      roll > 0 ? "clockwise" : "counterclockwise", std::abs(scale), scale > 0 ? "large" : "small",
+      pixels, misaligned_ > kMostRows ? ", and frames count as uncertain" : ""));
+}
+
+void RigWatch::look_at_motion(int frame, const RowMotion& motion) {
+  delay_.add(motion);
+  // Pictures that are paired by their times are half a frame apart at most. A model that both views
+  // pull at shows less than the whole delay.
+  const double least = 0.4 * frame_time_;
+  const auto late = delay_.beyond(least);
+  if (late_ && !late) {
+    const Delay now = delay_.estimate();
+    late_ = !(std::abs(now.seconds) + kSure * now.sigma < least);
+  } else {
+    late_ = late.has_value();
+  }
+  if (!late || std::exchange(late_said_, true)) return;
+  const double seconds = std::abs(late->seconds);
+  notes_.push_back(fmt::format(
+      "frame {}: the {} view is late, by {:.0f} ms ({:.1f} frames) or more, judged by models that "
+      "move. Depth is wrong while they move sideways, and frames count as uncertain. Start the "
+      "cameras together, or pair their pictures by time (`offset` of the source)",
+      frame, late->seconds > 0 ? "second" : "first", 1000 * seconds, seconds / frame_time_));
+}
+
+void RigWatch::look_at_colors(int frame, const ColorMap& colors) {
+  constexpr double kMuch = 1.25;              // times
+  constexpr int kLearning = 5, kLasting = 5;  // frames
+  const double now = brightness_of(colors);
+  if (color_frames_ < kLearning) {
+    ++color_frames_;
+    brightness_ = now;
+    return;
+  }
+  const double times = now / brightness_;
+  other_frames_ = times < kMuch && times > 1 / kMuch ? 0 : other_frames_ + 1;
+  if (other_frames_ < kLasting || std::exchange(brightness_said_, true)) return;
+  notes_.push_back(fmt::format(
+      "frame {}: against the first view, the second is {:.2f} times as bright as at the start; "
+      "colours follow. Fix exposure, gain and white balance of the cameras",
+      frame, 1 / times));
+}
+
+Frame RigWatch::applied_to(const Frame& frame) const {
+  if (misaligned_ == 0 || !is_pair(frame)) return frame;
+  const cv::Matx23d back = pair_.displacement(estimate_.roll, estimate_.scale, {0, estimate_.rows});
+  Frame out = frame;
+  View& view = out.views[1];
+  for (cv::Mat* image : {&view.color, &view.mask}) {
+    if (image->empty()) continue;
+    const int lookup = image == &view.color ? cv::INTER_LINEAR : cv::INTER_NEAREST;
+    cv::Mat moved;  // the source keeps its picture
+    cv::warpAffine(*image, moved, back, image->size(), lookup | cv::WARP_INVERSE_MAP,
+                   cv::BORDER_REPLICATE);
+    *image = moved;
+  }
+  return out;
+}
+
+}  // namespace hypotrack::internal

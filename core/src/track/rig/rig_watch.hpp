@@ -1,0 +1,68 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/exported.hpp"
+#include "hypotrack/camera.hpp"
+#include "hypotrack/frame.hpp"
+#include "tile/color_map.hpp"
+#include "track/rig/delay_fit.hpp"
+#include "track/rig/rectified_pair.hpp"
+#include "track/rig/rig_fit.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Watches whether the pictures of a pair of cameras agree with their calibration, are taken at the
+/// same time and stay as bright. It looks at whole pictures, often at first and then twice a
+/// second.
+class RigWatch {
+ public:
+  /// Returns nothing for cameras whose pictures it cannot compare: those that are not nearly
+  /// parallel.
+  static std::optional<RigWatch> make(const std::vector<Camera>& cameras);
+
+  /// Takes the next frame as it came. Frames without two views of colour teach nothing.
+  void look(const Frame& frame);
+  /// Takes the map from the second view's colours to the first's in a frame that was tracked.
+  void look_at_colors(int frame, const ColorMap& colors);
+  /// Takes how models that are tracked move.
+  void look_at_motion(int frame, const RowMotion& motion);
+
+  /// Returns a frame with the second view's pictures moved to where the calibration has them.
+  Frame applied_to(const Frame& frame) const;
+  /// Returns whether depth may be wrong in spite of that.
+  bool is_doubtful() const { return late_ || misaligned_ > kMostRows; }
+
+  /// Returns what the user should know, each thing once, since the last call.
+  std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
+  const RigEstimate& estimate() const { return estimate_; }
+
+ private:
+  explicit RigWatch(RectifiedPair pair) : pair_(std::move(pair)) {}
+  void judge(int frame);
+
+  static constexpr double kMostRows = 8;  ///< pixels that moving a picture makes up for
+
+  RectifiedPair pair_;
+  RigFit fit_;
+  RigEstimate estimate_;
+  int frames_ = 0, next_ = 0;  ///< number of frames, the one that is measured next
+  DelayFit delay_;
+  double time_ = 0;                                              ///< of the last frame
+  double frame_time_ = std::numeric_limits<double>::infinity();  ///< shortest, seconds
+  bool late_ = false, late_said_ = false;
+  double misaligned_ = 0;  ///< pixels in the second view; 0: not surely
+  int color_frames_ = 0;   ///< that taught colours at the start
+  double brightness_ = 0;  ///< of the first view against the second, after those
+  int other_frames_ = 0;   ///< frames in a row with another brightness
+  bool brightness_said_ = false;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace internal
+}  // namespace hypotrack
