@@ -38,7 +38,7 @@ class GivenStart {
 
   /// Remembers what speaks against the start. `why` is a clause of the note to the user.
   void doubt(std::size_t model, const std::string& why) { doubts_[model] = why; }
-  /// Stops to expect a model at the start, for a reason as of doubt().
+  /// Stops expecting a model at the start, for a reason as of doubt().
   void contradict(std::size_t model, const std::string& why);
   /// Notes doubts of this frame for the user, unless the model was surely found about at the start.
   void conclude(int frame, std::size_t model, const Eigen::VectorXd& state, bool is_found);
