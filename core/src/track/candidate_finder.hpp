@@ -44,7 +44,7 @@ struct Candidate {
                             ///< are meaningless
   ModelFlags in_view = {};  ///< false: a search of the whole pictures did not find the model
   ModelFlags confirmed = {};        ///< searches from other starts ended in the same pose
-  ModelFlags reproduced = {};       ///< at least half of several searches ended in about this pose
+  ModelFlags reproduced = {};       ///< a third of several searches ended in about this pose
   std::vector<double> unseen = {};  ///< seconds since a start that recognises the model saw it
                                     ///< about there; infinite: it never did
   bool from_start = false;          ///< the searches began at a start, not at an earlier solution
@@ -75,6 +75,7 @@ struct RecoveryRequest {
   ModelFlags thorough = {};          ///< search the pictures even for those that a start would see
   bool lost = false;                 ///< false: only alternative poses are wanted
   bool near_only = false;            ///< searches only around the answer
+  GlobalSearchSettings effort = {};  ///< of that; zeros: the usual one
   bool contradicts = false;          ///< only asks starts whether they see tracked models elsewhere
 };
 
@@ -158,8 +159,8 @@ class CandidateFinder {
                        std::size_t model) const;
   /// Returns whether two candidates have a model in the same pose.
   bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
-  /// Returns whether at least half of several candidates have a model about where the chosen one
-  /// has it. From a wrong posture searches end in different poses.
+  /// Returns whether a third of several candidates have a model about where the chosen one has it.
+  /// From a wrong posture searches end in different poses.
   bool is_reproduced(const std::vector<Candidate>& all, const Candidate& chosen,
                      std::size_t model) const;
   /// Returns whether another candidate has a model in the same pose as the chosen one.

@@ -260,8 +260,7 @@ void CandidateFinder::ModelSearch::ask_starts() {
 
 void CandidateFinder::ModelSearch::run() {
   if (finder_.starts_.empty() || has_held_ || request_.near_only)
-    search_places(GlobalSearchSettings(), kAllPlaces,
-                  [&](const Eigen::VectorXd& state) { add(state); });
+    search_places(request_.effort, kAllPlaces, [&](const Eigen::VectorXd& state) { add(state); });
   else
     ask_starts();
 }

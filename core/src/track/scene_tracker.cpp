@@ -419,8 +419,9 @@ bool SceneTracker::is_doubtful(const Candidate& best, std::size_t model) const {
 
 void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candidate& best) {
   constexpr double kAgo = 1;  // seconds since the models were as the start has them
+  // As much as some of the searches from the start, which it follows.
+  constexpr GlobalSearchSettings kEffort{.hypotheses = 200, .refined = 12};
   const std::size_t count = models_.size();
-  const Eigen::VectorXd before = best.found.state;
   best.probabilities[model] = given_.doubted(best.probabilities[model]);
   RecoveryRequest request{.kept = given_.state(),
                           .together = {},
@@ -428,14 +429,12 @@ void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candid
                           .unseen = std::vector<double>(count, kInfinite),
                           .sought = ModelFlags(count, false),
                           .thorough = ModelFlags(count, false),
-                          .near_only = true};
+                          .near_only = true,
+                          .effort = kEffort};
   request.sought[model] = true;
   for (const ModelTrack& one : models_) request.needed.push_back(one.monitor.needed());
   const auto part = static_cast<std::uint32_t>(200 + model);
   finder_.recover(frame, request, best, seed_of_part(frame_seed(seed_, frame.index), part));
-  const bool is_other = finder_.distance(model, before, best.found.state) > kHere;
-  const double found = best.probabilities[model];
-  if (!is_other && best.found.state != before) best.probabilities[model] = given_.doubted(found);
   const std::string why = "searches from around it end in different poses";
   given_.doubt(model, why);
   if (!(best.probabilities[model] >= settings_.surely_above)) leave_start(model, why);
