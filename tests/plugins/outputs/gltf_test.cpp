@@ -6,6 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <string>
+#include <string_view>
 #include <tuple>
 
 #include "expect_error.hpp"
@@ -54,10 +56,10 @@ std::vector<int> vertices_of_model(const aiMesh& drawn, const Mesh& mesh) {
   return out;
 }
 
-const aiMesh& mesh_of(const ImportedMotion& motion, const std::string& name) {
+const aiMesh& mesh_of(const ImportedMotion& motion, std::string_view name) {
   for (unsigned m = 0; m < motion.scene().mNumMeshes; ++m)
     if (name == motion.scene().mMeshes[m]->mName.C_Str()) return *motion.scene().mMeshes[m];
-  throw std::runtime_error("the file has no mesh " + name);
+  throw std::runtime_error("the file has no mesh " + std::string(name));
 }
 
 /// Returns the largest distance of a vertex of the file from that of the posed model, in metres.
