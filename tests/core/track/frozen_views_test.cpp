@@ -13,22 +13,7 @@ namespace {
 using test::noisy;
 using test::TexturedPair;
 
-class FrozenViewsTest : public ::testing::Test {
- protected:
-  FrameFault check(const Frame& frame) {
-    last_ = checks_.check(frame);
-    return last_.fault;
-  }
-  /// Checks the frames of a patch that moves by `step` pixels per frame.
-  void expect_sound(int first, int step, int frames) {
-    for (int i = 0; i < frames; ++i)
-      EXPECT_EQ(check(pair_.frame(first + i * step)), FrameFault::none) << "frame " << i;
-  }
-
-  TexturedPair pair_;
-  PictureChecks checks_{pair_.cameras, false};
-  ViewFault last_;
-};
+using FrozenViewsTest = test::TexturedPairChecks;
 
 TEST_F(FrozenViewsTest, AFrozenViewWithFreshNoiseIsNamed) {
   const View still = pair_.frame(280).views[1];

@@ -12,22 +12,7 @@ namespace {
 using test::noisy;
 using test::TexturedPair;
 
-class PictureChecksTest : public ::testing::Test {
- protected:
-  FrameFault check(const Frame& frame) {
-    last_ = checks_.check(frame);
-    return last_.fault;
-  }
-  /// Checks the frames of a patch that moves by `step` pixels per frame.
-  void expect_sound(int first, int step, int frames) {
-    for (int i = 0; i < frames; ++i)
-      EXPECT_EQ(check(pair_.frame(first + i * step)), FrameFault::none) << "frame " << i;
-  }
-
-  TexturedPair pair_;
-  PictureChecks checks_{pair_.cameras, false};
-  ViewFault last_;
-};
+using PictureChecksTest = test::TexturedPairChecks;
 
 void exchange(Frame& frame) { std::swap(frame.views[0], frame.views[1]); }
 

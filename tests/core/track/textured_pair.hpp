@@ -1,10 +1,13 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
+#include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::test {
 
@@ -67,5 +70,23 @@ inline Frame noisy(Frame frame, double sigma, std::uint64_t seed) {
   }
   return frame;
 }
+
+/// Tests of what PictureChecks finds in frames of a textured pair.
+class TexturedPairChecks : public ::testing::Test {
+ protected:
+  FrameFault check(const Frame& frame) {
+    last_ = checks_.check(frame);
+    return last_.fault;
+  }
+  /// Checks the frames of a patch that moves by `step` pixels per frame.
+  void expect_sound(int first, int step, int frames) {
+    for (int i = 0; i < frames; ++i)
+      EXPECT_EQ(check(pair_.frame(first + i * step)), FrameFault::none) << "frame " << i;
+  }
+
+  TexturedPair pair_;
+  PictureChecks checks_{pair_.cameras, false};
+  ViewFault last_;
+};
 
 }  // namespace hypotrack::test
