@@ -40,6 +40,8 @@ def blocks(text):
             yield first, block
             block = []
         if line.strip():
+            if not block and line.startswith("    "):  # an equation
+                continue
             if not block:
                 first = number
             block.append(re.sub(r"^\s*([-*]|\d+\.)\s+", "", line).strip())
