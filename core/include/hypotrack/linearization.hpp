@@ -64,7 +64,7 @@ struct LinearizationParams {
   double difference = 0.02;
   void visit(ParamVisitor& v) {
     v("blur_px", blur,
-      {.help = "for analytic Jacobians: pixels over which a passing silhouette is felt",
+      {.help = "for analytic Jacobians: width in pixels of the blur of silhouettes",
        .min = 1e-2,
        .max = 100});
     v("difference", difference,

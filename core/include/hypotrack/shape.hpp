@@ -23,8 +23,8 @@ struct ShapeSettings {
 
   void visit(ParamVisitor& v) {
     v("shape", shape,
-      {.help = "map of shape parameters to numbers: how this individual is built; what is not "
-               "named is as in shape_file, or neutral"});
+      {.help = "map of shape parameters to numbers, for an individual; others are as in "
+               "shape_file, or neutral"});
     v("shape_file", shape_file,
       {.help = "YAML file with such a map, as `hypotrack fit-shape` writes it"});
   }

@@ -27,7 +27,7 @@ struct ArticulatedParams {
   void visit(ParamVisitor& v) {
     v("file", file, {.help = "URDF file, or a skinned glTF or GLB file", .required = true});
     v("rig", rig,
-      {.help = "for a glTF or GLB file: YAML file that says which bones move, and how"});
+      {.help = "for a glTF or GLB file: YAML file of the moving bones and their motions"});
     v("texture", texture,
       {.help = "for a glTF or GLB file: image to use instead of the one that the mesh names"});
     v("scale", scale,

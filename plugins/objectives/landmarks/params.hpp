@@ -15,14 +15,14 @@ struct LandmarksParams {
   bool lite = false;
   void visit(ParamVisitor& v) {
     v("sigma_mm", sigma,
-      {.help = "how far beyond `free_mm` a landmark costs half of what it can cost at most",
+      {.help = "distance beyond `free_mm` at which a landmark costs half of its maximum",
        .min = 0.1,
        .max = 1000,
        .unit = "mm",
        .to_si = kMillimetre});
     v("free_mm", free,
-      {.help = "how far a landmark may be from the detected one at no cost: the detector's joints "
-               "are not quite the model's",
+      {.help = "distance from the detected landmark at no cost, because the detector's joints are "
+               "not quite the model's",
        .min = 0,
        .max = 1000,
        .unit = "mm",
@@ -34,8 +34,8 @@ struct LandmarksParams {
        .min = 0,
        .max = 1000});
     v("folder", folder,
-      {.help = "where scripts/get_hand_detector.sh has put the detector; default: where it puts it "
-               "by itself"});
+      {.help = "folder of the detector from scripts/get_hand_detector.sh; default: the one that "
+               "the script uses"});
     v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
   }
 };

@@ -15,14 +15,14 @@ struct PlausibleMotionParams {
   double thumb_sigma = 20 * kDegree;
   void visit(ParamVisitor& v) {
     v("motion_sigma_deg", motion_sigma,
-      {.help = "how far a joint turns from one frame to the next: there it costs 1",
+      {.help = "turn of a joint from one frame to the next that costs 1",
        .min = 0.01,
        .max = 1e6,
        .unit = "deg",
        .to_si = kDegree});
     v("coupling_sigma_deg", coupling_sigma,
-      {.help = "how far a finger's last joint strays from `coupling` times the one before: there "
-               "it costs 1",
+      {.help =
+           "deviation of a finger's last joint from `coupling` times the one before that costs 1",
        .min = 0.01,
        .max = 1e6,
        .unit = "deg",
@@ -30,9 +30,7 @@ struct PlausibleMotionParams {
     v("coupling", coupling,
       {.help = "flexion of a finger's last joint for that of the one before", .min = 0, .max = 2});
     v("curl_sigma_deg", curl_sigma,
-      {.help =
-           "how far a finger's middle joint strays from `curl` times the knuckle: there it costs "
-           "1",
+      {.help = "deviation of a finger's middle joint from `curl` times the knuckle that costs 1",
        .min = 0.01,
        .max = 1e6,
        .unit = "deg",
@@ -40,21 +38,19 @@ struct PlausibleMotionParams {
     v("curl", curl,
       {.help = "flexion of a finger's middle joint for that of its knuckle", .min = 0, .max = 4});
     v("neighbor_sigma_deg", neighbor_sigma,
-      {.help = "how far a finger's knuckle is bent otherwise than that of the finger beside it: "
-               "there it costs 1",
+      {.help = "difference of neighbouring fingers' knuckles that costs 1",
        .min = 0.01,
        .max = 1e6,
        .unit = "deg",
        .to_si = kDegree});
     v("abduction_sigma_deg", abduction_sigma,
-      {.help = "how far a finger strays sideways: there it costs 1",
+      {.help = "sideways deviation of a finger that costs 1",
        .min = 0.01,
        .max = 1e6,
        .unit = "deg",
        .to_si = kDegree});
     v("thumb_sigma_deg", thumb_sigma,
-      {.help = "how far a joint of a thumb strays from where it is in a relaxed hand: there it "
-               "costs 1",
+      {.help = "deviation of a thumb's joint from a relaxed hand that costs 1",
        .min = 0.01,
        .max = 1e6,
        .unit = "deg",

@@ -32,9 +32,9 @@ struct Params : Settings {
     v("lambda_k", lambda_k,
       {.help = "weight of fingers that cross, per radian", .min = 0, .max = 1e6});
     v("foreground", foreground,
-      {.help = "which pixels show the models: the frame's mask; depth: all within range_mm of the "
-               "last solution's depth; skin: those of them with the colour of skin; auto: the mask "
-               "where there is one, otherwise depth"});
+      {.help = "pixels that show the models: mask: the frame's mask; depth: all within range_mm of "
+               "the last solution's depth; skin: pixels of depth with the colour of skin; auto: "
+               "the mask if there is one, otherwise depth"});
     v("range_mm", range,
       {.help = "how far before and behind the last solution depth is foreground",
        .min = 0,

@@ -33,14 +33,13 @@ struct Params : Settings {
       {.help = "similarity at a colour distance d: the paper's exp(-beta d), or exp(-(beta d)^2), "
                "which keeps colours alike that differ by no more than noise"});
     v("charge", charge,
-      {.help = "what a pixel seen in both views must be similar to be worth covering: its "
-               "similarity counts less this",
+      {.help = "least similarity at which covering a pixel pays: a pixel counts by its similarity "
+               "minus this",
        .min = 0,
        .max = 1});
     v("gray_weight", gray_weight,
-      {.help = "how much of a colour difference counts that all channels share, as that of a "
-               "highlight does, which no two cameras see in the same place; below 1 with "
-               "color_space: rgb only",
+      {.help = "weight of the part of a colour difference that all channels share; highlights have "
+               "it, and each camera sees them elsewhere. Below 1 with color_space: rgb only",
        .min = 0,
        .max = 1});
     v("w_t", w_t, {.help = "distinctiveness below this counts as none", .min = 0, .max = 1});
@@ -51,7 +50,7 @@ struct Params : Settings {
        .unit = "mm",
        .to_si = kMillimetre});
     v("color_space", color_space,
-      {.help = "where colours are compared; every channel is scaled to 0..1"});
+      {.help = "space in which colours are compared; every channel is scaled to 0..1"});
     v("distinctiveness", distinctiveness,
       {.help = "weight of a pixel: the paper's measure, or none: all 1 (slides onto uniform "
                "surfaces in real images)"});
@@ -59,7 +58,7 @@ struct Params : Settings {
       {.help = "how similarities S become one score: S, S / pixels seen in both views, S / pixels "
                "rendered, S / sqrt(pixels rendered)"});
     v("direction", direction,
-      {.help = "whose pixels are summed; both: the mean of the two scores"});
+      {.help = "view whose pixels are summed; both: the mean of the two scores"});
     v("lookup", lookup, {.help = "how the other view's colour is read"});
     v("use_mask", use_mask,
       {.help = "pixels outside the frame's foreground mask, where it has one, weigh nothing"});

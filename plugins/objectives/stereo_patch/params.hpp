@@ -45,10 +45,9 @@ struct Params : Settings {
        .unit = "mm",
        .to_si = kMillimetre});
     v("full_at_difference", full_at_difference,
-      {.help = "patches are for cameras that do not agree on colours: they count the less, the "
-               "less the colours that both views showed of the same surface in recent frames "
-               "differ (red, green and blue in 0..1, after `photometric`), and in full from this "
-               "difference on. 0: always in full, as in the first frame",
+      {.help = "difference of the views' colours on the same surface in recent frames (red, green "
+               "and blue in 0..1, after `photometric`) from which patches count in full; below it "
+               "they count less. 0: always in full, as in the first frame",
        .min = 0,
        .max = 1});
     v("use_mask", use_mask,

@@ -40,7 +40,7 @@ struct DifferentialEvolutionParams {
       {.help = "generations, the initial one included, where the scene names no budget",
        .min = 1,
        .max = 1 << 20});
-    v("variant", variant, {.help = "what is added to what, and how dimensions cross over"});
+    v("variant", variant, {.help = "base of the differences, their number and the crossover"});
     v("weight", weight, {.help = "F, factor of the differences", .min = 0, .max = 1});
     v("crossover", crossover,
       {.help = "CR, probability of a dimension to change", .min = 0, .max = 1});

@@ -20,7 +20,8 @@ struct IcpPsoParams {
   double social = 1.3;
   void visit(ParamVisitor& v) {
     v("optimizer", optimizer,
-      {.help = "what refines each particle: {type: levenberg_marquardt} or another local search",
+      {.help =
+           "search that refines each particle: {type: levenberg_marquardt} or another local one",
        .required = true});
     v("particles", particles, {.help = "particles of the swarm", .min = 1, .max = 1 << 20});
     v("generations", generations,
@@ -28,8 +29,8 @@ struct IcpPsoParams {
        .min = 1,
        .max = 1 << 20});
     v("local_evaluations", local_evaluations,
-      {.help = "evaluations of a particle in a generation; 0: what two Jacobians with three steps "
-               "each take",
+      {.help = "evaluations of a particle in a generation; 0: enough for two Jacobians with three "
+               "steps each",
        .min = 0,
        .max = 1 << 20});
     start.visit(v);

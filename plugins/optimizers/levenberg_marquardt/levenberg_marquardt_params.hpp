@@ -40,8 +40,8 @@ struct LevenbergMarquardtParams {
                "Jacobians of terms; terms without them by differences. auto: analytic where a term "
                "over pixels allows it"});
     v("blur_px", blur,
-      {.help = "for analytic Jacobians: pixels over which a passing silhouette is felt at first; "
-               "halved where differences would be",
+      {.help = "for analytic Jacobians: first width in pixels of the blur of silhouettes; halved "
+               "together with differences",
        .min = 1e-2,
        .max = 100});
     v("trials", trials,
@@ -53,17 +53,16 @@ struct LevenbergMarquardtParams {
        .min = 1e-6,
        .max = 1});
     v("finest", finest,
-      {.help = "where a step no longer helps, differences (or the blur) are halved; it ends below "
-               "this share of "
-               "the first ones",
+      {.help = "halve differences (or the blur) when steps no longer help; stop below this share "
+               "of the first ones",
        .min = 1e-3,
        .max = 1});
     v("damping", damping, {.help = "the first damping", .min = 1e-9, .max = 1e9});
     v("damping_factor", damping_factor,
       {.help = "between the dampings of neighbouring trials", .min = 1.01, .max = 1000});
     v("mean_share", mean_share,
-      {.help = "share of the mean curvature in the damping of each number: how firmly one that "
-               "hardly matters stays where it is",
+      {.help = "share of the mean curvature in the damping of each number; holds numbers with "
+               "little influence in place",
        .min = 0,
        .max = 1});
     v("tolerance", tolerance,

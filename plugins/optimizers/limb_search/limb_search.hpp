@@ -26,8 +26,8 @@ struct LimbSearchParams {
        .min = 1e-3,
        .max = 1e3});
     v("gain", gain,
-      {.help = "a limb moves only where that lowers the cost by more than this share of it: a limb "
-               "that nothing is seen of gains a little nearly everywhere",
+      {.help = "a limb moves only if that lowers the cost by more than this share; hidden limbs "
+               "would otherwise jump for negligible gains",
        .min = 0,
        .max = 1});
     v("evaluations", evaluations,

@@ -25,16 +25,14 @@ struct StageParams {
        .min = 1e-3,
        .max = 1e3});
     v("rescue", rescue,
-      {.help = "whether this stage is left out where those before it have found what costs no more "
-               "than recent frames lead to expect; its budget goes to those after it"});
+      {.help = "skip this stage if the cost is already within the range of recent frames; later "
+               "stages get its budget"});
     v("moves", moves,
-      {.help =
-           "what this stage moves: all, only the poses of models, or only their limbs; the rest "
-           "stays as the stages before it left it"});
+      {.help = "move all, only the poses of models, or only their limbs; the rest stays as earlier "
+               "stages left it"});
     v("from", from,
-      {.help =
-           "where this stage begins: at the best so far, or at the start of the whole search, as "
-           "where the stages before it may have gone the wrong way; the better answer is kept"});
+      {.help = "begin at the best so far, or at the start of the whole search, if earlier stages "
+               "may have gone the wrong way; the better answer stays"});
   }
 };
 

@@ -27,8 +27,8 @@ struct PsoParams {
        .max = 100});
     v("social", social, {.help = "c2, pull of the swarm's best", .min = 0, .max = 100});
     v("reset_every", reset.every,
-      {.help = "generations after which particles get one of their limbs (fingers) anew, about the "
-               "swarm's best; 0: never",
+      {.help = "after every so many generations, particles get a new sample of one limb (finger) "
+               "about the swarm's best; 0: never",
        .min = 0,
        .max = 1 << 20});
     v("reset_share", reset.share,

@@ -69,8 +69,7 @@ class Overlay final : public Output {
   struct Params {
     Views views = Views::first;
     void visit(ParamVisitor& v) {
-      v("views", views,
-        {.help = "what is drawn on: the first view, or the first two side by side"});
+      v("views", views, {.help = "views to draw on: the first one, or the first two side by side"});
     }
   };
   explicit Overlay(const Params& params) : params_(params) {}

@@ -23,8 +23,8 @@ class Stream final : public Output {
       v("port", port, {.help = "TCP port to listen at", .min = 1, .max = 65535});
       v("socket", socket, {.help = "socket file to listen at, in place of a port"});
       v("host", host,
-        {.help = "address to listen at with a port; 127.0.0.1, this machine only, where it is not "
-                 "given, and 0.0.0.0 for everyone who can reach this machine"});
+        {.help = "address to listen at with a port; default: 127.0.0.1, this machine only; "
+                 "0.0.0.0: everyone who can reach this machine"});
       v("online", online,
         {.help = "send solutions as soon as they are there; false: after fixed-lag smoothing"});
       v("queue", queue,

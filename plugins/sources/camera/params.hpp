@@ -27,15 +27,13 @@ struct DeviceParams {
     v("height", height,
       {.help = "height of a device's picture", .min = 1, .max = 65536, .unit = "px"});
     v("fps", fps,
-      {.help = "pictures per second; a V4L2 device is set to it (default: what the device says, or "
-               "as measured)",
+      {.help = "pictures per second; sets a V4L2 device to it (default: the device's rate, or the "
+               "measured one)",
        .min = 0.1,
        .max = 2000,
        .unit = "1/s"});
     v("pixel_format", pixel_format,
-      {.help =
-           "four letters of a V4L2 format, such as MJPG, which most webcams need for their full "
-           "rate"});
+      {.help = "four letters of a V4L2 format; most webcams need MJPG for their full rate"});
     v("exposure_ms", exposure,
       {.help = "exposure of a V4L2 device, which ends its automatic exposure",
        .min = 0.1,

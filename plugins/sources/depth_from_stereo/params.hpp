@@ -31,19 +31,19 @@ struct Params {
     v("source", source,
       {.help = "{type, ...}: a source with two calibrated cameras", .required = true});
     v("nearest_mm", nearest,
-      {.help = "what is nearer gets no depth, or a wrong one",
+      {.help = "nearest depth; nearer points get no depth, or a wrong one",
        .min = 10,
        .max = 1e5,
        .unit = "mm",
        .to_si = kMillimetre});
     v("farthest_mm", farthest,
-      {.help = "what is farther gets no depth, or a wrong one",
+      {.help = "farthest depth; points beyond it get no depth, or a wrong one",
        .min = 11,
        .max = 1e6,
        .unit = "mm",
        .to_si = kMillimetre});
     v("block_size", block_size,
-      {.help = "side of the square that is compared, odd", .min = 1, .max = 21, .unit = "px"});
+      {.help = "side of the compared squares, odd", .min = 1, .max = 21, .unit = "px"});
     v("mode", mode,
       {.help = "along how many directions costs are summed: five; eight (better, slower); three "
                "(fastest, streaks)"});

@@ -64,8 +64,7 @@ struct ImageSequenceParams {
        .max = 1e5,
        .unit = "1/s"});
     v("timestamps", timestamps,
-      {.help = "when images were taken, if not at a constant rate: with them a gap is as long as "
-               "it was"});
+      {.help = "times of the images, if their rate is not constant; gaps then keep their length"});
     v("bits", bits,
       {.help = "significant bits of 16-bit images; default: 16", .min = 8, .max = 16});
     truth.visit(v);

@@ -47,7 +47,7 @@ struct FaultParams {
   void visit(ParamVisitor& v) {
     v("frames", frames,
       {.help = "first and last frame of it", .min = 0, .max = 1e7, .required = true});
-    v("kind", kind, {.help = "what is wrong", .required = true});
+    v("kind", kind, {.help = "the fault", .required = true});
     v("model", model, {.help = "of the kind absent: which one; all without it"});
     v("view", view,
       {.help = "of the kinds frozen, late, misaligned and exposure: which one; all without it",

@@ -111,27 +111,25 @@ struct SensorParams {
       {.help = "sigma of a Gaussian blur", .min = 0, .max = 20, .unit = "px"});
     v("gain", gain, {.help = "factor on a camera's colours, one per camera", .min = 0, .max = 10});
     v("offset", offset,
-      {.help = "what is added to a camera's colours, one per camera",
+      {.help = "offset of a camera's colours, one per camera",
        .min = -255,
        .max = 255,
        .unit = "of 255"});
     v("exposure_s", exposure,
-      {.help =
-           "time over which a picture is exposed, about the frame's time: what moves is blurred; "
-           "at most 1/frame_rate",
+      {.help = "exposure time of a picture, about the frame's time; it blurs motion; at most "
+               "1/frame_rate",
        .min = 0,
        .max = 100,
        .unit = "s"});
     v("depth_noise_mm", depth_noise,
-      {.help =
-           "sigma of the depth noise at 1 m; it grows with the square of the distance, as where "
-           "depth is triangulated",
+      {.help = "sigma of the depth noise at 1 m; grows with the square of the distance, as in "
+               "triangulation",
        .min = 0,
        .max = 1000,
        .unit = "mm",
        .to_si = kMillimetre});
     v("depth_step_mm", depth_step,
-      {.help = "depth comes in multiples of this, as recordings store it; 0: as it is",
+      {.help = "step of depths, as in recordings; 0: none",
        .min = 0,
        .max = 1000,
        .unit = "mm",
@@ -158,7 +156,7 @@ struct SyntheticParams {
   SensorParams sensor;
   bool depth = false;
   void visit(ParamVisitor& v) {
-    v("cameras", cameras, {.help = "what takes the pictures"});
+    v("cameras", cameras, {.help = "the cameras that take the pictures"});
     v("calibration", calibration, {.help = "cameras from a file, instead of `cameras`"});
     v("frame_rate", frame_rate,
       {.help = "frames per second", .min = 0.01, .max = 1e4, .unit = "Hz"});
@@ -173,13 +171,13 @@ struct SyntheticParams {
     v("joint_file", joint_file, {.help = "instead of keyframes: a real motion to follow"});
     v("random", random, {.help = "instead of keyframes: a motion that is drawn from a seed"});
     v("faults", faults,
-      {.help = "list of {frames: [first, last], kind, model, view}: what is wrong with frames"});
+      {.help = "list of {frames: [first, last], kind, model, view}: faults of frames"});
     v("render_models", render_models,
-      {.help = "map of models of the scene to {type, ...}: what the pictures show in their place"});
-    v("forearm", forearm, {.help = "what the pictures show below a hand's wrist"});
-    v("background", background, {.help = "what is behind the models"});
+      {.help = "map of models of the scene to {type, ...}, the models that pictures show instead"});
+    v("forearm", forearm, {.help = "arm below a hand's wrist in the pictures"});
+    v("background", background, {.help = "scenery behind the models"});
     v("light", light, {.help = "how the models are lit"});
-    v("sensor", sensor, {.help = "what the cameras add to a picture"});
+    v("sensor", sensor, {.help = "noise and blur of the cameras, and their colours"});
     v("depth", depth,
       {.help = "every view also gets the depth of the models and of the background's surfaces (a "
                "background of the kind color has none)"});

@@ -72,7 +72,7 @@ struct RandomParams {
        .unit = "mm/s",
        .to_si = kMillimetre});
     v("turn_deg_per_s", turn,
-      {.help = "the same of its rotation",
+      {.help = "mean speed of its rotation, at most",
        .min = 1,
        .max = 1e5,
        .unit = "deg/s",
@@ -86,7 +86,7 @@ struct RandomParams {
        .unit = "mm",
        .to_si = kMillimetre});
     v("hold", hold, {.help = "map of models to the model that holds them"});
-    v("pose", pose, {.help = "map of models to poses: how those lie to each other that are held"});
+    v("pose", pose, {.help = "map of held models to their poses relative to the holder"});
     v("absence", absence, {.help = "all models vanish and come back elsewhere"});
   }
 };

@@ -39,7 +39,7 @@ struct VideoParams {
       {.help = "the cameras, of pictures as players show them", .required = true});
     v("offset", offset,
       {.help = "frame of `right` that belongs to frame 0 of `left`; negative: `right` started "
-               "later; default: what the times in the files say",
+               "later; default: by the times in the files",
        .min = -1000000,
        .max = 1000000});
     v("start", start,
@@ -59,10 +59,10 @@ struct VideoParams {
        .unit = "ms",
        .to_si = 1e-3});
     v("color_matrix", colors.matrix,
-      {.help = "matrix of the colours; default: what the files say, or what players assume: bt709 "
-               "for HD, bt601 for SD"});
+      {.help = "matrix of the colours; default: the files' own, or that of players: bt709 for HD, "
+               "bt601 for SD"});
     v("color_range", colors.range,
-      {.help = "range of the samples; default: what the files say, or limited"});
+      {.help = "range of the samples; default: the files' own, or limited"});
     truth.visit(v);
   }
 };

@@ -24,12 +24,12 @@ class HandLandmarks final : public Start {
     double smallest_hand = 50;
     void visit(ParamVisitor& v) {
       v("folder", folder,
-        {.help = "where scripts/get_hand_detector.sh has put the detector; default: where it puts "
-                 "it by itself"});
+        {.help = "folder of the detector from scripts/get_hand_detector.sh; default: the one that "
+                 "the script uses"});
       v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
       v("smallest_hand_px", smallest_hand,
-        {.help = "length of the smallest hands to look for in small pieces of the pictures, where "
-                 "no larger ones are seen; 0: do not",
+        {.help = "length of the smallest hands to search for in small pieces of the pictures, if "
+                 "there are no larger ones; 0: no such search",
          .min = 0,
          .max = 10000,
          .unit = "px"});
