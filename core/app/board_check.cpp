@@ -85,7 +85,7 @@ double BoardCheck::residual() const {
   return std::sqrt(squares / corners);
 }
 
-/// Compares cameras with those that the pictures give alone. Returns whether they are the same.
+/// Compares cameras with the cameras found from the pictures alone. Returns whether they agree.
 bool BoardCheck::print_own(const std::array<Camera, 2>& cameras) const {
   constexpr double kWorse = 1.3;                 // of the residuals
   constexpr double kCentre = 3, kFocal = 0.005;  // pixels, share

@@ -51,7 +51,7 @@ struct OptionRules {
   bool secret = false;          ///< lists of processes show neither option nor value
 };
 
-/// One command of the program: its options and what it does. A handle that may be copied.
+/// One command of the program: its options and its action. A handle that may be copied.
 class Command {
  public:
   /// `secrets`: takes the names of the secret options.

@@ -19,7 +19,7 @@
 
 namespace hypotrack {
 
-/// Shows a run to any number of viewers and does what they ask for. Without viewers it does
+/// Shows a run to any number of viewers and carries out their requests. Without viewers it does
 /// nothing. Functions are called from the thread that tracks.
 class LiveRun {
  public:

@@ -17,10 +17,10 @@ struct PreviewKeyHelp {
 /// Returns the keys and what they do, for the user.
 const std::array<PreviewKeyHelp, 7>& preview_key_help();
 
-/// Returns what a key does; letters of either case.
+/// Returns the action of a key; letters of either case.
 PreviewKey preview_key(char key);
 
-/// Passes what a key does on to the run. Help is no matter of the run.
+/// Passes the action of a key on to the run, except help.
 void press(RunControls& controls, PreviewKey key);
 
 }  // namespace hypotrack

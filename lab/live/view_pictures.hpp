@@ -20,7 +20,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// JPEG pictures of one layout for those who watch.
+/// JPEG pictures of one layout for viewers.
 struct PictureChannel {
   Latest<std::string> pictures;
   std::atomic<int> watchers = 0;

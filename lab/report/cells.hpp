@@ -23,7 +23,7 @@ struct StudyCell {
 std::vector<StudyCell> cells_of(const StudyData& study, const std::string& scene,
                                 const std::string& part = {});
 
-/// Returns the runs without those whose results are, bit by bit, those of an earlier run.
+/// Returns the runs whose results differ from every earlier run's by at least a bit.
 std::vector<const StudyRun*> distinct_runs(const std::vector<const StudyRun*>& runs);
 
 /// Returns a metric of the distinct runs that have it, in the unit of tables.

@@ -53,7 +53,7 @@ Json run_json(const StudyData& study, const StudyRun& run) {
   return json;
 }
 
-/// Returns how metrics are shown, for those that any run has.
+/// Returns the presentation of the metrics that any run has.
 Json metric_list(const StudyData& study) {
   std::set<std::string> keys;
   for (const StudyRun& run : study.runs)

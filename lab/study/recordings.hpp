@@ -24,7 +24,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 std::string recording_id(const Plan& plan, const PlannedRun& run);
 
 /// Makes the recordings of the given runs (indices into the plan), each in a separate process. Also
-/// waits for those that other processes make. Calls `again` now and then; it ends the work by
+/// waits for recordings that other processes make. Calls `again` now and then; it ends the work by
 /// returning false. Throws DataError with the error of a failed recording.
 void make_recordings(const StudyFolder& folder, const Plan& plan,
                      const std::vector<std::size_t>& runs, const Launch& launch,

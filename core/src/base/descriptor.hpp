@@ -18,8 +18,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// A file descriptor that its destructor closes. Its number is at least 16, above those that
-/// started programs get. Programs do not inherit it.
+/// A file descriptor that its destructor closes. Its number is at least 16, above the
+/// descriptors that started programs get. Programs do not inherit it.
 class Descriptor {
  public:
   /// Takes over a descriptor and changes its number. Throws std::system_error.

@@ -52,7 +52,7 @@ class Subprocess {
   End wait();
   /// Waits until the end or a time. Returns whether the program has ended.
   bool wait_until(std::chrono::steady_clock::time_point time);
-  /// Sends a signal to the program, but not to those that it started.
+  /// Sends a signal to the program, but not to its child processes.
   void signal(int number) const;
   /// Kills the program and its process group, and waits for its end.
   void kill();

@@ -40,8 +40,8 @@ struct EvaluateSettings {
       {.help = "number of the NVIDIA GPU, where there are several", .min = 0, .max = 1024});
     v("on_device_loss", on_device_loss,
       {.help =
-           "what a run does when the GPU fails: stop, and keep the frames so far; or cpu: say so "
-           "and search the frame again on the CPU, and all that follow"});
+           "reaction of a run to a failing GPU: stop, and keep the frames so far; or cpu: note it, "
+           "and search this frame and all later ones on the CPU"});
   }
 };
 

@@ -10,7 +10,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// The terms of a scene that a GPU evaluates, and those that stay on the CPU.
+/// The terms of a scene that a GPU evaluates, and the terms that stay on the CPU.
 struct SplitTerms {
   std::vector<ObjectiveTerm> gpu;
   std::vector<ObjectiveTerm> cpu;

@@ -19,7 +19,7 @@ void write_picture(const std::filesystem::path& file, const cv::Mat& image,
 class ImageWriter {
  public:
   ImageWriter();
-  /// Finishes the files that are begun and drops those that wait.
+  /// Finishes the files that are begun and drops waiting ones.
   ~ImageWriter();
   ImageWriter(const ImageWriter&) = delete;
   ImageWriter& operator=(const ImageWriter&) = delete;

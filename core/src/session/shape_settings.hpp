@@ -49,13 +49,12 @@ struct ShapeEstimateSettings {
     v("rounds", rounds, {.help = "how often to track and fit in turn", .min = 1, .max = 20});
     v("iterations", iterations, {.help = "steps of each joint fit", .min = 1, .max = 1000});
     v("coverage", coverage,
-      {.help = "what a covered pixel must explain to be worth covering, as a share of what the "
-               "mean one does; 0: sizes grow wherever anything looks alike",
+      {.help = "least contribution of a covered pixel, relative to the mean one; 0: sizes grow "
+               "wherever anything looks alike",
        .min = 0,
        .max = 1});
     v("prior", prior,
-      {.help = "what one standard deviation off the neutral shape costs per frame, in pixels that "
-               "are left unexplained",
+      {.help = "prior cost per frame of one standard deviation from the neutral shape, in pixels",
        .min = 0,
        .max = 1e6});
   }

@@ -30,7 +30,7 @@ class ShapeTargets {
   /// Returns all() with given values for wanted().
   std::vector<ShapeParameter> with(const Eigen::VectorXd& values) const;
   /// Returns the prior of wanted() with a weight: means, deviations and bounds of the parameters,
-  /// with shape_correlations(). Parameters that are not wanted say nothing about those that are.
+  /// with shape_correlations(). Unwanted parameters do not affect wanted ones.
   ShapePrior prior(double weight) const;
   /// Returns the initial values of wanted().
   Eigen::VectorXd values() const;

@@ -31,8 +31,8 @@ inline bool any(const ModelFlags& flags) {
 /// Least probability of a candidate that is worth searches around it.
 inline constexpr double kLeastPromising = 0.02;
 
-/// Time, in seconds, for which a pose stays recognised while starts do not see the model: a hand is
-/// hard to see from some sides.
+/// Time, in seconds, for which a pose stays recognised after a detector last saw the model: a hand
+/// is hard to see from some sides.
 inline constexpr double kRemembered = 0.5;
 
 /// A pose hypothesis for a frame and how well the pictures support it. The cost is infinite if no
@@ -45,8 +45,8 @@ struct Candidate {
   ModelFlags in_view = {};  ///< false: a search of the whole pictures did not find the model
   ModelFlags confirmed = {};        ///< searches from other starts ended in the same pose
   ModelFlags reproduced = {};       ///< a third of several searches ended in about this pose
-  std::vector<double> unseen = {};  ///< seconds since a start that recognises the model saw it
-                                    ///< about there; infinite: it never did
+  std::vector<double> unseen = {};  ///< seconds since a detector last saw the model near this
+                                    ///< pose; infinity if never
   bool from_start = false;          ///< the searches began at a start, not at an earlier solution
 
   bool answers() const { return std::isfinite(found.cost); }
@@ -54,7 +54,7 @@ struct Candidate {
   double probability() const;
   /// Returns whether it is so probable that no other pose has to be searched.
   bool is_sure() const { return probability() >= 0.95; }
-  /// Returns whether a start has recognised the model there lately.
+  /// Returns whether a detector has seen the model there lately.
   bool is_recognized(std::size_t model) const { return unseen[model] <= kRemembered; }
   /// Returns whether a model's pose is worth following: likely enough, or recognised.
   bool may_be_right(std::size_t model, double probability) const {
@@ -68,19 +68,19 @@ struct RecoveryRequest {
   Eigen::VectorXd together;  ///< the last state in which all models were surely right at once;
                              ///< empty: none
   std::vector<double> seconds = {};  ///< time since `kept`, by model; infinite: never seen
-  std::vector<double> unseen = {};   ///< time, by model, since it was recognised
+  std::vector<double> unseen = {};   ///< seconds, by model, since a detector saw it
   std::vector<double> needed = {};   ///< probability, by model, that an answer needs to count as
                                      ///< right
   ModelFlags sought;                 ///< models to find, or to find alternative poses for
-  ModelFlags thorough = {};          ///< search the pictures even for those that a start would see
+  ModelFlags thorough = {};          ///< search the whole pictures although a detector would see it
   bool lost = false;                 ///< false: only alternative poses are wanted
   bool near_only = false;            ///< searches only around the answer
   GlobalSearchSettings effort = {};  ///< of that; zeros: the usual one
-  bool contradicts = false;          ///< only asks starts whether they see tracked models elsewhere
+  bool contradicts = false;  ///< only asks detectors whether they see tracked models elsewhere
 };
 
 /// Finds the poses of one frame: searches from given starts, recovers lost models, and ranks the
-/// candidates by what the pictures show.
+/// candidates by their agreement with the pictures.
 class CandidateFinder {
  public:
   /// Moves the optimizer out of `parts`. The scene must outlive the finder.
@@ -110,17 +110,17 @@ class CandidateFinder {
   /// (StatusSettings::surely_above).
   void accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
 
-  /// Returns whether any start recognises a model.
+  /// Returns whether a detector of a model is among the starts.
   bool recognizes(std::size_t model) const;
-  /// Returns how far apart two states have a model: metres, mean over its landmarks.
+  /// Returns the distance between a model in two states: metres, mean over its landmarks.
   double distance(std::size_t model, const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
-  /// Returns how far a model is from where starts that recognise it see it (Sighting::distance());
-  /// nothing if none sees it, or if they are never to be asked (RecoverySettings::check is 0).
+  /// Returns the distance of a model from the place where detectors see it (Sighting::distance());
+  /// nothing if none sees it, or if RecoverySettings::check is 0.
   std::optional<double> seen_from(const Frame& frame, std::size_t model,
                                   const Eigen::VectorXd& state) const;
-  /// Returns whether the starts of the last recovery saw a sought model, all of them elsewhere.
+  /// Returns whether all detectors of the last recovery saw a sought model elsewhere.
   bool contradicted() const { return contradicted_; }
-  /// Forgets how a model looks: its poses were wrong.
+  /// Forgets the looks of a model, for its poses were wrong.
   void forget(std::size_t model) { verifier_.forget(model); }
 
   FrameSearch& search() { return search_; }

@@ -22,8 +22,8 @@ class CandidateFinder::ModelSearch {
   void run();
 
   const std::vector<Candidate>& found() const { return found_; }
-  /// Returns for how many seconds no start that recognises the model has seen it about where
-  /// `state` has it; infinite: for ever.
+  /// Returns the seconds since a detector last saw the model near its pose in `state`; infinity if
+  /// never.
   double unseen(const Eigen::VectorXd& state) const;
   /// Returns the models that the candidates show, and those of them that were searched.
   const ModelFlags& shown() const { return shown_; }

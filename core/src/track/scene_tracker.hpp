@@ -60,8 +60,8 @@ class SceneTracker {
   /// start or an objective cannot work with the frame.
   void check(const Frame& frame);
 
-  /// Returns what is wrong with a frame, as track() does, without a search. Call it with frames in
-  /// their order.
+  /// Returns the fault of a frame that track() would report, without a search. Call it with frames
+  /// in their order.
   ViewFault fault_of(const Frame& frame);
 
   /// Returns a warning if frames like this one would count as lost or uncertain at the start; empty

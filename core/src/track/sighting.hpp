@@ -29,16 +29,16 @@ Eigen::Vector3d landmark_center(const Model& model, const Eigen::VectorXd& pose)
 /// Throws PluginError unless a start proposes a pose of the model.
 void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters);
 
-/// Where the starts that recognise a model see it in a frame.
+/// The poses in which the detectors of a model see it in a frame.
 struct Sighting {
-  bool asked = false;                       ///< a start recognises the model
+  bool asked = false;                       ///< the model has a detector
   std::vector<Eigen::VectorXd> poses = {};  ///< parameters of the model, which is surely there
 
   /// Returns the distance of a pose of the model from the nearest of them; nothing without any.
   std::optional<double> distance(const Model& model, std::span<const double> pose) const;
 };
 
-/// Asks the starts that recognise a model where they see it, without a search.
+/// Asks the detectors of a model for its poses, without a search.
 Sighting sighting(const std::vector<std::unique_ptr<Start>>& starts, const Scene& scene,
                   const std::vector<Camera>& cameras, const Frame& frame, std::size_t model);
 

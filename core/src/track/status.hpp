@@ -94,7 +94,7 @@ struct StatusEvidence {
   ForegroundOverlap foreground_overlap = ForegroundOverlap::unknown;
   bool in_view = true;      ///< false: a search of the whole pictures did not find the model
   bool confirmed = false;   ///< searches from other starts ended in the same pose
-  bool recognized = false;  ///< a start that recognises the model sees it about there
+  bool recognized = false;  ///< a detector sees the model near this pose
 };
 
 /// Decides the status of a model in a frame. Where the pictures do not tell whether a pose is

@@ -9,7 +9,7 @@
 
 namespace hypotrack {
 
-/// Which of a model's landmarks are those that the detector finds.
+/// The model's landmarks that the detector finds.
 struct HandModel {
   /// Index of the model's landmark, by the detector's; -1: the model has none of that name.
   std::array<Eigen::Index, 21> landmarks;

@@ -83,8 +83,8 @@ bool is_element(std::string_view rest, std::string_view begin) {
          std::string_view(" \t\r\n/>").find(rest[begin.size()]) != rest.npos;
 }
 
-/// Returns the element that a text begins with, of those that say nothing of shapes and joints;
-/// empty if it begins with another. The parser refuses some that are incomplete.
+/// Returns the element that a text begins with if it describes no shape and no joint; empty if the
+/// text begins with another. The parser refuses some that are incomplete.
 std::string_view unused_element(std::string_view text) {
   for (const std::string_view name :
        {"collision", "inertial", "gazebo", "transmission", "safety_controller", "dynamics",

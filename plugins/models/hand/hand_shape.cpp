@@ -36,7 +36,7 @@ std::size_t finger_of(const std::string& parameter) {
   return f;
 }
 
-/// Returns the stretches of the fingers' bones: those that their angles turn, and their
+/// Returns the stretches of the fingers' bones: the bones that their angles turn, and their
 /// descendants.
 std::vector<BoneStretch> stretches_of(const ModelData& hand, const HandShape& shape) {
   std::vector<const Parameter*> driver(hand.bones.size(), nullptr);

@@ -27,7 +27,8 @@ Vector3d file_point(const Rigging& r, const std::vector<double>& point, const st
   return p;
 }
 
-/// Returns the vertex farthest from `joint` among those that mostly follow a bone of the rig.
+/// Returns the vertex farthest from `joint` among the vertices that mostly follow a bone of the
+/// rig.
 Vector3d farthest_vertex(const Rigging& r, int bone, const Vector3d& joint) {
   Vector3d farthest = joint;
   for (Eigen::Index v = 0; v < r.in.mesh.vertices.cols(); ++v) {

@@ -37,7 +37,7 @@ HandPoints3D directions_to(const HandPoints3D& points, const TileCamera& camera)
 /// Returns how large a hand looks: twice its reach from its centre, radians. NaN do not count.
 double apparent_size(const HandPoints3D& directions);
 
-/// Returns the mean angle between directions; those that are NaN do not count.
+/// Returns the mean angle between directions, without NaN ones.
 double mean_angle(const HandPoints3D& a, const HandPoints3D& b);
 
 }  // namespace hypotrack::landmarks

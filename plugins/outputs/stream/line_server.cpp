@@ -54,7 +54,7 @@ void LineServer::Impl::take(Socket socket) {
 
 void LineServer::Impl::finish_all() {
   listener->close();
-  const auto all = readers;  // those that close leave the set
+  const auto all = readers;  // a reader that closes leaves the set
   for (const auto& reader : all) reader->finish();
 }
 

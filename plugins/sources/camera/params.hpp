@@ -9,7 +9,7 @@
 
 namespace hypotrack::live {
 
-/// Settings of a V4L2 device; those that are absent stay as they are.
+/// Settings of a V4L2 device; absent ones stay as they are.
 struct DeviceParams {
   std::optional<int> width;
   std::optional<int> height;

@@ -123,7 +123,7 @@ class Faults {
   std::size_t models_;
   std::vector<Fault> faults_;
   std::vector<Eigen::Vector2d> centers_;     ///< of the views: principal points
-  std::vector<View> kept_;                   ///< last pictures before those that are frozen
+  std::vector<View> kept_;                   ///< last pictures before the frozen ones
   std::vector<std::deque<View>> delivered_;  ///< of each view that may be late, the newest last
 };
 

@@ -41,7 +41,7 @@ Camera read_table(const ConfigNode& table, const CalibrationSettings& settings, 
   return camera;
 }
 
-/// Adds the keys of a table that are used, those that say nothing of the camera, and those of the
+/// Adds the used keys of a table, the keys that do not describe the camera, and the keys of the
 /// recording that would change something.
 void add_keys(const std::string& path, const ConfigNode& table, KeyPaths& used,
               KnownButUnused& unused) {

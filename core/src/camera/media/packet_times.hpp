@@ -40,7 +40,7 @@ class SecondFields {
 /// Returns whether a container has a time for each frame, and not a rate for all.
 bool has_clock(const Demuxer& video);
 
-/// Reads all packets. Leaves out those that an edit list or the codec does not show.
+/// Reads all packets but the ones that an edit list or the codec hides.
 PacketTimes read_packet_times(Demuxer& video);
 
 }  // namespace internal

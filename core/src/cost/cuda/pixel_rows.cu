@@ -115,7 +115,7 @@ struct TriangleAtPixel {
   }
 };
 
-/// Finds the triangle of every pixel: of those that are drawn there, the first one. A warp takes a
+/// Finds the triangle of every pixel: the first one of the triangles drawn there. A warp takes a
 /// triangle in a view; blocks in y are points.
 __global__ void __launch_bounds__(kTriangleThreads)
     find_owners(const __grid_constant__ SceneLayout scene,

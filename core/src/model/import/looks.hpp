@@ -23,7 +23,7 @@ struct Look {
 /// The looks of a file's parts that have triangles, and their pictures.
 class Looks {
  public:
-  /// Loads the pictures. Throws DataError on those that are missing, damaged or without texture
+  /// Loads the pictures. Throws DataError if one is missing, damaged or without texture
   /// coordinates.
   Looks(const MeshFile& file, const Soup& soup, const std::vector<int>& kept);
 

@@ -82,7 +82,7 @@ Line fit_line(const Histogram& first, const Histogram& other) {
   return {gain, to_mean - gain * from_mean};
 }
 
-/// Pairs of one channel without those that are dark or saturated.
+/// Pairs of one channel, without dark or saturated ones.
 struct Pairs {
   Pairs(const std::vector<float>& a, const std::vector<float>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {

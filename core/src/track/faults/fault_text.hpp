@@ -11,7 +11,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Returns whether a frame with this fault has pictures that must not be searched.
 bool spoils_pictures(FrameFault fault);
 
-/// Describes a fault for the user: what was found, what the tracker does, and what to do. `view` is
+/// Describes a fault for the user: the finding, the tracker's reaction, and the remedy. `view` is
 /// the view that has it, negative: all. Empty for FrameFault::none.
 std::string describe(FrameFault fault, int view);
 

@@ -41,7 +41,7 @@ struct PoseGuess {
 struct HypothesisCounts {
   int hypotheses = 0;  ///< number scored
   int refined = 0;     ///< number of the best refined by least squares
-  int kept = 0;        ///< most of those that are refined in the fine tile, too
+  int kept = 0;        ///< most poses to refine in the fine tile, too
 };
 
 /// Result of a search of one place.
@@ -96,7 +96,7 @@ class PoseSearch {
   /// Prepares the frame in a tile around one pose of the model.
   void take_in(FrameSearch& search, const TileMaker& tiles, const Frame& frame,
                const Eigen::VectorXd& base, const Eigen::VectorXd& hypothesis) const;
-  /// Refines poses in the coarse tile and leaves those that fall deepest, `kept` or more.
+  /// Refines poses in the coarse tile and keeps the ones of lowest cost, `kept` or more.
   void refine_coarsely(LeastSquares& least_squares, Cost& cost, std::size_t kept,
                        std::vector<Refined>& poses) const;
 

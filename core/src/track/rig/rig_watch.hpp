@@ -22,8 +22,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// second.
 class RigWatch {
  public:
-  /// Returns nothing for cameras whose pictures it cannot compare: those that are not nearly
-  /// parallel.
+  /// Returns nothing for cameras that are not nearly parallel: it cannot compare their
+  /// pictures.
   static std::optional<RigWatch> make(const std::vector<Camera>& cameras);
 
   /// Takes the next frame as it came. Frames without two views of colour teach nothing.

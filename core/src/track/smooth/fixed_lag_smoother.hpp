@@ -58,7 +58,7 @@ class FixedLagSmoother {
   MotionPrior motion_;
   std::optional<TileHighlights> highlights_;
   TrajectoryFit fit_;
-  std::vector<TimedState> states_;  ///< last two settled ones, then those that wait
+  std::vector<TimedState> states_;  ///< last two settled ones, then waiting ones
   std::vector<FrameTiles> tiles_;
   std::vector<std::int64_t> evaluations_;
   std::size_t fixed_ = 0;
