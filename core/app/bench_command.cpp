@@ -165,7 +165,7 @@ void add_limits(const Command& command, BenchOptions& options) {
 void add_bench_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
   const Command command =
-      root.add_command("bench", "Measure how fast scenes are tracked, backend beside backend");
+      root.add_command("bench", "Measure the speed of tracking, backend beside backend");
   command.add("scene", &options->request.scenes,
               "Scene files, or names of the table's scenes (default: all of those)",
               {.value_name = "PATH"});

@@ -25,7 +25,7 @@ void add_board_options(const Command& command, BoardOptions& options, bool requi
               {.show_default = true, .check = one_of(calibrate::dictionary_names())});
   command.add("--pattern", &options.pattern,
               "Top left square of a ChArUco board: black, marker (even rows of OpenCV before 4.6, "
-              "its legacy pattern), or what the pictures show",
+              "its legacy pattern), or auto: as in the pictures",
               {.show_default = true, .check = one_of(kPatterns)});
   command.add("--inverted", &options.inverted, "White and black of the board are exchanged");
 }

@@ -211,7 +211,7 @@ void add_calibrate_command(const Command& root, CommonOptions& common, int& exit
   command.add("--step", &options->step, "Use every n-th frame of videos",
               {.show_default = true, .check = whole_number(1)});
   command.add("--bits", &options->bits,
-              "Significant bits of 16-bit pictures, such as 12 (default: 16)",
+              "Significant bits of 16-bit pictures, for example 12 (default: 16)",
               {.check = whole_number(8, 16)});
   add_color_options(command, options->colors);
   command.add("--lenses", &options->lenses,

@@ -134,7 +134,7 @@ void add_calibration_command(const Command& root, int& exit_code) {
                     {.value_name = "'right*.jpg'"});
   add_layout_option(check_command, of_check->layout);
   check_command.add("--bits", &of_check->bits,
-                    "Significant bits of 16-bit pictures, such as 12 (default: 16)",
+                    "Significant bits of 16-bit pictures, for example 12 (default: 16)",
                     {.check = whole_number(8, 16)});
   add_color_options(check_command, of_check->colors);
   add_board_options(check_command, of_check->board, false);

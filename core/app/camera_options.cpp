@@ -14,10 +14,10 @@ void add_color_options(const Command& command, ColorOptions& options) {
   const auto matrices = enum_names(ColorMatrix());
   const auto ranges = enum_names(ColorRange());
   command.add("--color-matrix", &options.matrix,
-              "Matrix of the colours of videos (default: what they say, or as players assume)",
+              "Matrix of the colours of videos (default: their own, or that of players)",
               {.check = one_of({matrices.begin(), matrices.end()})});
   command.add("--color-range", &options.range,
-              "Range of the samples of videos (default: what they say, or limited)",
+              "Range of the samples of videos (default: their own, or limited)",
               {.check = one_of({ranges.begin(), ranges.end()})});
 }
 
@@ -33,7 +33,7 @@ void add_camera_options(const Command& command, CameraOptions& options) {
   command.add("--fps", &options.fps, "Pictures per second of live cameras",
               {.check = positive_number()});
   command.add("--pixel-format", &options.pixel_format,
-              "Pixel format to set live cameras to, such as MJPG", {.value_name = "MJPG"});
+              "Pixel format of live cameras, for example MJPG", {.value_name = "MJPG"});
 }
 
 }  // namespace hypotrack::app

@@ -129,7 +129,7 @@ int fit_shape(const FitShapeOptions& options, const CommonOptions& common) {
 void add_fit_shape_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<FitShapeOptions>();
   const Command command = root.add_command(
-      "fit-shape", "Find how the models of a scene are built and write it for their shape_file");
+      "fit-shape", "Fit the shapes of a scene's models and write them for their shape_file");
   add_scene_options(command, options->scene);
   command.add("--out", &options->out, "File for the shape",
               {.show_default = true, .check = file_name()});

@@ -322,7 +322,7 @@ void add_new_command(const Command& root, CommonOptions& common, int& exit_code)
   scene.add("file", &options->file, "Scene file to write (YAML)",
             {.required = true, .check = file_name()});
   add_recording_options(scene, *options);
-  scene.add("--model", &options->model, "What to track", {.check = one_of(model_words())});
+  scene.add("--model", &options->model, "Models to track", {.check = one_of(model_words())});
   scene.add("--box", &options->box, "Edges of the box of hand_and_box: 60x120x30mm");
   scene.add("--tracker", &options->tracker, "Tracker", {.check = one_of(tracker_words())});
   scene.add("--force", &options->force, "Replace the file if it is there");

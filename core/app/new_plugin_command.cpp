@@ -79,7 +79,7 @@ void add_new_plugin_command(const Command& plugins, CommonOptions& common, int& 
   auto options = std::make_shared<NewPluginOptions>();
   const Command command = plugins.add_command(
       "new", "Write the project of a plugin that builds, passes its tests and runs");
-  command.add("kind", &options->request.kind, "What it is",
+  command.add("kind", &options->request.kind, "Kind of plugin",
               {.required = true, .check = one_of(plugin_kinds())});
   command.add("name", &options->request.name, "Name of the plugin: my_plugin", {.required = true});
   command.add("--cuda", &options->request.cuda, "With a part for GPUs (objectives)");

@@ -108,7 +108,7 @@ int record(const RecordOptions& options, const CommonOptions& common) {
 void add_record_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<RecordOptions>();
   const Command command =
-      root.add_command("record", "Record a scene's source, such as a live camera; Ctrl-C ends it");
+      root.add_command("record", "Record a scene's source (a live camera); Ctrl-C ends it");
   add_scene_options(command, options->scene);
   command.add("--out", &options->out, "New folder for the recording",
               {.required = true, .check = file_name()});

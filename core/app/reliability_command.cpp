@@ -65,14 +65,14 @@ int print_reliability(const ReliabilityOptions& options) {
 
 void add_reliability_command(const Command& root, int& exit_code) {
   auto options = std::make_shared<ReliabilityOptions>();
-  const Command command = root.add_command(
-      "reliability", "Compare how far landmarks may be off, as runs say, with how far they are");
+  const Command command =
+      root.add_command("reliability", "Compare predicted errors of landmarks with true ones");
   command.add("runs", &options->runs,
               "Folders of runs with tracker.uncertainty.enabled and a known truth",
               {.required = true});
-  command.add("--out", &options->out, "Where to draw it (SVG)",
+  command.add("--out", &options->out, "Plot to write (SVG)",
               {.show_default = true, .check = file_name()});
-  command.add("--title", &options->title, "What to write above the plot");
+  command.add("--title", &options->title, "Title of the plot");
   command.on_call([=, &exit_code] { exit_code = print_reliability(*options); });
 }
 

@@ -144,10 +144,10 @@ struct SceneFile {
   OutputSettings output;
   std::int64_t seed = 1;
   void visit(ParamVisitor& v) {
-    v("models", models, {.help = "list of {name, type, ...}: what is tracked", .required = true});
+    v("models", models,
+      {.help = "list of {name, type, ...}: the tracked models", .required = true});
     v("source", source,
-      {.help =
-           "{type, ...}: where frames come from; a program that has frames of its own needs none"});
+      {.help = "{type, ...}: the source of frames; a program with frames of its own needs none"});
     v("objective", objective,
       {.help = "{type, ...}, or a list of {type, weight, ...}: what is minimised",
        .required = true});
@@ -158,10 +158,11 @@ struct SceneFile {
     v("photometric", photometric, {.help = "how the views' colours are brought together"});
     v("search", search,
       {.help = "where the next solution is expected, and how far from there it may be"});
-    v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
-    v("smoothing", smoothing, {.help = "how later frames correct states before they are written"});
-    v("shape", shape, {.help = "how the models' shapes are estimated"});
-    v("init", init, {.help = "where the first search starts"});
+    v("tracker", tracker, {.help = "status, recovery and uncertainty"});
+    v("smoothing", smoothing,
+      {.help = "correction of states by later frames, before they are written"});
+    v("shape", shape, {.help = "estimation of the models' shapes"});
+    v("init", init, {.help = "start of the first search"});
     v("output", output, {.help = "what a run writes"});
     v("seed", seed, {.help = "of all random numbers", .min = 0});
   }

@@ -41,12 +41,12 @@ struct ShapeEstimateSettings {
        .max = 60,
        .unit = "s"});
     v("from", from,
-      {.help = "images: fits all parameters while tracking; starts: takes the scale from what "
-               "init.from sees, such as hand_landmarks"});
+      {.help = "images: fits all parameters while tracking; starts: takes the scale from the hands "
+               "that a detector of init.from sees (hand_landmarks)"});
     v("models", models, {.help = "models of one shape; default: all that have shape parameters"});
-    v("parameters", parameters, {.help = "what to look for; default: all shape parameters"});
+    v("parameters", parameters, {.help = "parameters to estimate; default: all shape parameters"});
     v("frames", frames, {.help = "frames that are fitted together", .min = 2, .max = 1000});
-    v("rounds", rounds, {.help = "how often to track and fit in turn", .min = 1, .max = 20});
+    v("rounds", rounds, {.help = "alternations of tracking and fitting", .min = 1, .max = 20});
     v("iterations", iterations, {.help = "steps of each joint fit", .min = 1, .max = 1000});
     v("coverage", coverage,
       {.help = "least contribution of a covered pixel, relative to the mean one; 0: sizes grow "

@@ -29,12 +29,11 @@ struct PredictionSettings {
   double longest_gap = 0.060;
   void visit(ParamVisitor& v) {
     v("velocity", velocity,
-      {.help =
-           "whether the last motion is expected to go on: none; constant: a share `gain` of it; "
-           "adaptive: the share that fits the new frame best, of none, half and all of it, for "
-           "poses and joint angles; nine evaluations of the frame's budget"});
+      {.help = "share of the last motion that continues: none; constant: `gain`; adaptive: none, "
+               "half or all of it, whichever fits the new frame best, separately for poses and "
+               "joint angles, for nine evaluations of the frame's budget"});
     v("gain", gain,
-      {.help = "for velocity: constant, the share of the last motion that goes on",
+      {.help = "for velocity: constant, the share of the last motion that continues",
        .min = 0,
        .max = 1});
     v("longest_gap_ms", longest_gap,

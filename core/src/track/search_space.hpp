@@ -51,14 +51,14 @@ struct SearchSettings {
        .unit = "deg",
        .to_si = kDegree});
     v("rotation_as", rotation_as,
-      {.help = "what optimizers see of a rotation: quaternion components or a tangent vector"});
-    v("second_look", second_look,
       {.help =
-           "before anything has been found: share of a frame's budget that is kept to search it "
-           "once more from what was found, with colours learned anew there; 0: none",
+           "coordinates of a rotation for optimizers: quaternion components or a tangent vector"});
+    v("second_look", second_look,
+      {.help = "before the first solution: share of a frame's budget for a second search from the "
+               "first one's answer, with colours learned there; 0: none",
        .min = 0,
        .max = 0.9});
-    v("prediction", prediction, {.help = "where a search starts"});
+    v("prediction", prediction, {.help = "start of a search"});
   }
 };
 

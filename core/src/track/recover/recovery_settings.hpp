@@ -33,43 +33,43 @@ struct RecoverySettings {
   double farthest = 1.2;
   void visit(ParamVisitor& v) {
     v("enabled", enabled,
-      {.help = "look for models that are lost; off: go on from any answer, as the paper does"});
+      {.help = "search for lost models; false: continue from any answer, as the paper does"});
     v("run", run,
       {.help = "frame: within the frame that is lost; background: in a thread of its own, while "
                "frames are answered at once as lost (results then depend on timing)"});
     v("from", from,
-      {.help = "starts that look for lost models, as in init.from; without it those of init.from, "
-               "or global_search if these give a state"});
+      {.help = "starts that look for lost models, as in init.from; default: those of init.from, or "
+               "global_search if these give a state"});
     v("check_s", check,
-      {.help =
-           "time after which starts that recognise a tracked model look whether it is elsewhere; "
-           "0: never",
+      {.help = "time between checks by detectors whether a tracked model is elsewhere; 0: never",
        .min = 0,
        .max = 1e6,
        .unit = "s"});
     v("first_starts", first_starts,
-      {.help = "starts around the given one that the first frame is searched from",
-       .min = 1,
-       .max = 100});
+      {.help = "starts of the first frame, around the given one", .min = 1, .max = 100});
     v("places", places, {.help = "places looked at per lost frame", .min = 1, .max = 100});
     v("hypotheses", hypotheses,
       {.help = "poses evaluated per place, at a coarse tile", .min = 8, .max = 1e6});
     v("refined", refined,
       {.help = "best of them refined by least squares, at the coarse tile", .min = 1, .max = 1e4});
     v("searched", searched,
-      {.help = "best of those searched by the scene's optimizer, at each place until one is surely "
-               "right",
+      {.help = "best of those searched by the scene's optimizer, at each place until one is very "
+               "probable",
        .min = 1,
        .max = 100});
     v("tile", tile, {.help = "pixels along one side of the coarse tile", .min = 16, .max = 1024});
     v("nearest_mm", nearest,
-      {.help = "depth from the first camera where models are looked for",
+      {.help = "nearest depth of the search from the first camera",
        .min = 10,
        .max = 1e5,
        .unit = "mm",
        .to_si = kMillimetre});
     v("farthest_mm", farthest,
-      {.help = "the same, far end", .min = 10, .max = 1e6, .unit = "mm", .to_si = kMillimetre});
+      {.help = "farthest depth of the search from the first camera",
+       .min = 10,
+       .max = 1e6,
+       .unit = "mm",
+       .to_si = kMillimetre});
   }
 };
 
