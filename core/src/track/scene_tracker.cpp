@@ -27,8 +27,9 @@ constexpr int kPatientFrames = 3;
 constexpr int kSeveralAgain = 5;
 // Frames after a loss in which alternative poses are searched although one looks right.
 constexpr int kConfirmations = 4;
-// Effort of searches for alternatives around a pose. More of it finds no more of them.
-constexpr GlobalSearchSettings kNearbyEffort{.hypotheses = 200, .refined = 12};
+// Effort of searches for alternatives around a pose, as a share of that of a search of one place.
+// More of it finds no more of them.
+constexpr double kNearbyShare = 0.1;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -53,6 +54,15 @@ StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveT
 double sigma_after(double seconds) {
   constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
   return kAtOnce + kPerSecond * std::max(seconds, 0.0);
+}
+
+/// Returns the effort of a search for alternatives around a pose.
+GlobalSearchSettings nearby_effort(const RecoverySettings& recovery) {
+  const auto share = [](int whole) {
+    return std::max(1, static_cast<int>(std::lround(kNearbyShare * whole)));
+  };
+  return {
+      .hypotheses = share(recovery.hypotheses), .refined = share(recovery.refined), .searched = 1};
 }
 
 /// Returns the status of a frame from those of its models.
@@ -332,7 +342,7 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
   // Search alternatives around an acceptable but doubtful pose, ever less often while there are
   // none.
   out.near_only = true;
-  out.effort = kNearbyEffort;
+  out.effort = nearby_effort(settings_.recovery);
   doubts_ = doubts ? doubts_ + 1 : doubts_ / 2;
   out.sought = doubts && std::has_single_bit(doubts_) ? doubtful : confirmed;
   return out;
@@ -422,6 +432,8 @@ bool SceneTracker::is_doubtful(const Candidate& best, std::size_t model) const {
 
 void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candidate& best) {
   constexpr double kAgo = 1;  // seconds since the models were as the start has them
+  // As much as some of the searches from the start, which it follows.
+  constexpr GlobalSearchSettings kEffort{.hypotheses = 200, .refined = 12};
   const std::size_t count = models_.size();
   best.probabilities[model] = given_.doubted(best.probabilities[model]);
   RecoveryRequest request{.kept = given_.state(),
@@ -431,7 +443,7 @@ void SceneTracker::try_other_poses(const Frame& frame, std::size_t model, Candid
                           .sought = ModelFlags(count, false),
                           .thorough = ModelFlags(count, false),
                           .near_only = true,
-                          .effort = kNearbyEffort};
+                          .effort = kEffort};
   request.sought[model] = true;
   for (const ModelTrack& one : models_) request.needed.push_back(one.monitor.needed());
   const auto part = static_cast<std::uint32_t>(200 + model);
