@@ -185,9 +185,12 @@ Found FrameSearch::settled(const Eigen::VectorXd& start, const Budget& budget, s
   constexpr int kMost = 4;
   constexpr double kGain = 0.02;  // least relative gain of another search
   Found found{start, std::numeric_limits<double>::infinity(), 0};
+  Budget one = budget;
   for (int k = 0; k < kMost; ++k) {
+    // A later search needs its rescue only where it gets worse.
+    if (k > 0) one.usual_cost = found.cost;
     Found next =
-        from(found.state, budget, std::nullopt, seed_of_part(seed, static_cast<std::uint32_t>(k)));
+        from(found.state, one, std::nullopt, seed_of_part(seed, static_cast<std::uint32_t>(k)));
     next.evaluations += found.evaluations;
     const bool settles = !(found.cost - next.cost > kGain * std::abs(next.cost));
     found = std::move(next);

@@ -249,7 +249,7 @@ void CandidateFinder::ModelSearch::ask_starts() {
     if (!recognizes) continue;
     denied = denied || (proposed.taken.empty() && proposed.known.empty());
     if (!request_.contradicts && !proposed.known.empty()) break;
-    if (never_seen && !proposed.taken.empty()) search_only_near(proposed.taken);
+    if (!request_.contradicts && !proposed.taken.empty()) search_only_near(proposed.taken);
     if (request_.contradicts && !proposed.taken.empty() && proposed.known.empty())
       finder_.contradicted_ = true;
   }

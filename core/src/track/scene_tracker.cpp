@@ -27,6 +27,9 @@ constexpr int kPatientFrames = 3;
 constexpr int kSeveralAgain = 5;
 // Frames after a loss in which alternative poses are searched although one looks right.
 constexpr int kConfirmations = 4;
+// Effort of searches for alternatives around a pose, as a share of that of a search of one place.
+// More of it finds no more of them.
+constexpr double kNearbyShare = 0.1;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -51,6 +54,15 @@ StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveT
 double sigma_after(double seconds) {
   constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
   return kAtOnce + kPerSecond * std::max(seconds, 0.0);
+}
+
+/// Returns the effort of a search for alternatives around a pose.
+GlobalSearchSettings nearby_effort(const RecoverySettings& recovery) {
+  const auto share = [](int whole) {
+    return std::max(1, static_cast<int>(std::lround(kNearbyShare * whole)));
+  };
+  return {
+      .hypotheses = share(recovery.hypotheses), .refined = share(recovery.refined), .searched = 1};
 }
 
 /// Returns the status of a frame from those of its models.
@@ -330,6 +342,7 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
   // Search alternatives around an acceptable but doubtful pose, ever less often while there are
   // none.
   out.near_only = true;
+  out.effort = nearby_effort(settings_.recovery);
   doubts_ = doubts ? doubts_ + 1 : doubts_ / 2;
   out.sought = doubts && std::has_single_bit(doubts_) ? doubtful : confirmed;
   return out;

@@ -67,10 +67,12 @@ struct HandDetector::Impl {
                    (options.lite ? "hand_landmark_lite.net" : "hand_landmark_full.net")) {}
 
   double least_score() const { return kUnsure * options.palm_threshold; }
-  std::vector<HandDetection> detect(const hands::HandPicture& picture, bool thorough) const;
+  std::vector<HandDetection> detect(const hands::HandPicture& picture,
+                                    std::optional<int> turn) const;
   std::vector<HandDetection> confirm(const hands::HandPicture& picture,
                                      std::span<const hands::Palm> found, bool sure) const;
-  std::vector<HandDetection> detect_small(const hands::HandPicture& picture, int side) const;
+  std::vector<HandDetection> detect_small(const hands::HandPicture& picture,
+                                          std::span<const cv::Rect> tiles) const;
   std::optional<HandDetection> look(const cv::Mat& picture, const HandPoints& guess,
                                     const Rounds& rounds) const;
 
@@ -79,8 +81,9 @@ struct HandDetector::Impl {
   hands::HandLandmarker landmarker;
 };
 
+/// Looks in all tiles, or in one of the largest ones.
 std::vector<HandDetection> HandDetector::Impl::detect(const hands::HandPicture& picture,
-                                                      bool thorough) const {
+                                                      std::optional<int> turn) const {
   const cv::Size size = picture.pixels.size();
   const cv::Rect whole({}, size);
   const std::vector<hands::Palm> found = palms.find(picture, whole, least_score());
@@ -91,8 +94,12 @@ std::vector<HandDetection> HandDetector::Impl::detect(const hands::HandPicture& 
   if (out.empty()) out = confirm(picture, {unsure, found.end()}, false);
   for (const int side : hands::tile_sides(size, options.smallest_hand)) {
     if (!out.empty()) break;
-    out = detect_small(picture, side);
-    if (!thorough) break;
+    const std::vector<cv::Rect> tiles = hands::tiles(size, side);
+    if (turn) {
+      const auto one = static_cast<unsigned>(*turn) % tiles.size();
+      return detect_small(picture, std::span(tiles).subspan(one, 1));
+    }
+    out = detect_small(picture, tiles);
   }
   return out;
 }
@@ -116,9 +123,9 @@ std::vector<HandDetection> HandDetector::Impl::confirm(const hands::HandPicture&
 
 /// Returns the hands in tiles of the picture.
 std::vector<HandDetection> HandDetector::Impl::detect_small(const hands::HandPicture& picture,
-                                                            int side) const {
+                                                            std::span<const cv::Rect> tiles) const {
   std::vector<hands::Palm> found;
-  for (const cv::Rect& tile : hands::tiles(picture.pixels.size(), side)) {
+  for (const cv::Rect& tile : tiles) {
     const auto here = palms.find(picture, tile, least_score());
     found.insert(found.end(), here.begin(), here.end());
   }
@@ -141,8 +148,14 @@ HandDetector::~HandDetector() = default;
 HandDetector::HandDetector(HandDetector&&) noexcept = default;
 HandDetector& HandDetector::operator=(HandDetector&&) noexcept = default;
 
-std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture, bool thorough) const {
-  std::vector<HandDetection> found = impl_->detect(hands::hand_picture(picture), thorough);
+std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture) const {
+  std::vector<HandDetection> found = impl_->detect(hands::hand_picture(picture), std::nullopt);
+  std::ranges::for_each(found, move_to_joints);
+  return found;
+}
+
+std::vector<HandDetection> HandDetector::glance(const cv::Mat& picture, int turn) const {
+  std::vector<HandDetection> found = impl_->detect(hands::hand_picture(picture), turn);
   std::ranges::for_each(found, move_to_joints);
   return found;
 }

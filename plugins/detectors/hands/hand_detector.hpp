@@ -34,9 +34,13 @@ class HandDetector {
   HandDetector(HandDetector&&) noexcept;
   HandDetector& operator=(HandDetector&&) noexcept;
 
-  /// Returns the hands in an 8-bit BGR or grey picture, those with the surest palms first. Unless
-  /// `thorough`, looks in the largest tiles only. Throws DataError for other pictures.
-  std::vector<HandDetection> detect(const cv::Mat& picture, bool thorough = true) const;
+  /// Returns the hands in an 8-bit BGR or grey picture, those with the surest palms first. Throws
+  /// DataError for other pictures.
+  std::vector<HandDetection> detect(const cv::Mat& picture) const;
+
+  /// Returns hands as detect() does, but looks for small ones in one of the largest tiles only. The
+  /// tiles take turns: give a frame's number.
+  std::vector<HandDetection> glance(const cv::Mat& picture, int turn) const;
 
   /// Returns the hand at about these landmarks, such as projected ones; nothing if there is none or
   /// a landmark is NaN. Takes a fraction of the time of detect().

@@ -87,7 +87,7 @@ class HandLandmarks final : public Start {
   };
   static constexpr double kLeastLikely = 0.1, kSurely = 0.7;  // probabilities of the model's side
 
-  /// Detects the hands of a frame, once; small ones only if `thorough`.
+  /// Detects the hands of a frame, once; small ones everywhere only if `thorough`.
   void look_at(const Frame& frame, const std::vector<Camera>& cameras, bool thorough) {
     if (frame.views.size() < 2 || frame.views[0].color.empty() || frame.views[1].color.empty())
       return pairs_.clear();
@@ -98,9 +98,12 @@ class HandLandmarks final : public Start {
     seen_ = now;
     const std::array<Camera, 2> pair{cameras[0], cameras[1]};
     const auto& views = frame.views;
+    const auto detect = [&](std::size_t view) {
+      const cv::Mat& picture = views[view].color;
+      return thorough ? detector_->detect(picture) : detector_->glance(picture, frame.index);
+    };
     std::vector<HandDetection> first, second;
-    tbb::parallel_invoke([&] { first = detector_->detect(views[0].color, thorough); },
-                         [&] { second = detector_->detect(views[1].color, thorough); });
+    tbb::parallel_invoke([&] { first = detect(0); }, [&] { second = detect(1); });
     look_in_other_view(*detector_, pair, first, 0, views[1].color, second);
     look_in_other_view(*detector_, pair, second, 1, views[0].color, first);
     pairs_ = pair_hands(pair, first, second);

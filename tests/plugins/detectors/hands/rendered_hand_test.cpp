@@ -42,23 +42,47 @@ TEST(RenderedHand, HasTheRelativeShapeOfItsLandmarksInThePicture) {
   EXPECT_NEAR((hand.relative.col(12) - hand.relative.col(0)).norm(), 0.17, 0.04) << "metres";
 }
 
+const cv::Rect kAround(560, 180, 280, 320);  // of test::rendered_hand(), the hand
+
+/// Returns a large picture with a rendered hand whose size is changed.
+cv::Mat with_small_hand(const cv::Mat& hand, double scale, const cv::Point& at) {
+  cv::Mat small, picture(720, 1280, CV_8UC3, cv::Scalar(90, 100, 110));
+  cv::resize(hand(kAround), small, {}, scale, scale, cv::INTER_AREA);
+  small.copyTo(picture(cv::Rect(at, small.size())));
+  return picture;
+}
+
+/// Returns in how many turns of all tiles a glance finds one hand.
+int turns_that_find(const HandDetector& detector, const cv::Mat& picture) {
+  constexpr int kTiles = 6;  // half as large as the picture is wide
+  int out = 0;
+  for (int turn = 0; turn < kTiles; ++turn) out += detector.glance(picture, turn).size() == 1;
+  return out;
+}
+
 TEST(RenderedHand, OfFiftyPixelsIsFoundInALargePictureWhereThoroughlyLookedFor) {
   HYPOTRACK_NEEDS_HAND_DETECTOR();
   HandDetector detector({});
   const auto pictures = test::rendered_hand();
-  const cv::Rect around(560, 180, 280, 320);
   constexpr double kScale = 1 / 5.0;
   const cv::Point at(900, 500);
-  cv::Mat small, picture(720, 1280, CV_8UC3, cv::Scalar(90, 100, 110));
-  cv::resize(pictures.picture()(around), small, {}, kScale, kScale, cv::INTER_AREA);
-  small.copyTo(picture(cv::Rect(at, small.size())));
+  const cv::Mat picture = with_small_hand(pictures.picture(), kScale, at);
 
-  EXPECT_TRUE(detector.detect(picture, false).empty());
+  EXPECT_EQ(turns_that_find(detector, picture), 0);
   const HandDetection hand = test::only_hand(detector, picture);
   HandPoints truth = test::true_points(pictures);
-  truth.row(0) = kScale * (truth.row(0).array() + 0.5 - around.x) - 0.5 + at.x;
-  truth.row(1) = kScale * (truth.row(1).array() + 0.5 - around.y) - 0.5 + at.y;
+  truth.row(0) = kScale * (truth.row(0).array() + 0.5 - kAround.x) - 0.5 + at.x;
+  truth.row(1) = kScale * (truth.row(1).array() + 0.5 - kAround.y) - 0.5 + at.y;
   EXPECT_LT(test::mean_distance(hand.landmarks, truth), 5);
+}
+
+TEST(RenderedHand, OfHundredPixelsIsFoundWhenItsTileIsGlancedAt) {
+  HYPOTRACK_NEEDS_HAND_DETECTOR();
+  HandDetector detector({});
+  const cv::Mat picture = with_small_hand(test::rendered_hand().picture(), 1 / 2.5, {1100, 500});
+  const int turns = turns_that_find(detector, picture);
+  EXPECT_GE(turns, 1);
+  EXPECT_LT(turns, 6);
 }
 
 TEST(RenderedHand, InGreyIsRefinedToTheSamePlace) {
