@@ -49,6 +49,10 @@ constexpr std::array<std::pair<std::string_view, int>, 21> kDictionaries = {
      {"APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10},
      {"APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11}}};
 
+/// Between outlines that are not the same, in perimeters. With the usual 0.05, OpenCV takes a
+/// marker of 0.8 of its square and the white square around it for the same, and keeps the square.
+constexpr double kLeastDistance = 0.03;
+
 /// Returns OpenCV's number of a board's dictionary.
 int dictionary_of(const Board& board) {
   return std::ranges::find(kDictionaries, board.dictionary,
@@ -73,7 +77,13 @@ cv::Size size_of(const Markers& markers, std::span<const MarkerStep> steps) {
 struct DetectorMarkings {
   explicit DetectorMarkings(const Board& board)
       : dictionary(cv::aruco::getPredefinedDictionary(dictionary_of(board))),
-        detector(dictionary) {}
+        detector(dictionary, parameters()) {}
+
+  static cv::aruco::DetectorParameters parameters() {
+    cv::aruco::DetectorParameters out;
+    out.minMarkerDistanceRate = kLeastDistance;
+    return out;
+  }
 
   Markers markers(const cv::Mat& gray) const {
     Markers out;
@@ -96,7 +106,9 @@ using Markings = DetectorMarkings;
 struct ArucoMarkings {
   explicit ArucoMarkings(const Board& board)
       : dictionary(cv::aruco::getPredefinedDictionary(dictionary_of(board))),
-        parameters(cv::aruco::DetectorParameters::create()) {}
+        parameters(cv::aruco::DetectorParameters::create()) {
+    parameters->minMarkerDistanceRate = kLeastDistance;
+  }
 
   Markers markers(const cv::Mat& gray) const {
     Markers out;

@@ -78,8 +78,11 @@ void write_packets(const VideoRecipe& recipe, AVCodecContext& encoder, AVFormatC
   const Owned<AVPacket> packet(av_packet_alloc());
   while (avcodec_receive_packet(&encoder, packet.get()) >= 0) {
     packet->duration = duration_of(recipe, packet->pts);
-    if (recipe.damaged && packet->pts == recipe.times[*recipe.damaged])
-      std::memset(packet->data, 0xFF, static_cast<std::size_t>(packet->size));
+    if (recipe.damaged && packet->pts == recipe.times[*recipe.damaged]) {
+      const int kept =
+          encoder.codec_id == AV_CODEC_ID_H264 ? 4 : 0;  // where muxers look for a unit
+      std::memset(packet->data + kept, 0xFF, static_cast<std::size_t>(packet->size - kept));
+    }
     av_packet_rescale_ts(packet.get(), encoder.time_base, format.streams[0]->time_base);
     checked(av_write_frame(&format, packet.get()), "a packet is refused");
   }
@@ -93,6 +96,7 @@ void paint(const VideoRecipe& recipe, AVFrame& frame, int i) {
 }  // namespace
 
 void fill_plane(AVFrame& frame, int plane, int value) {
+  if (!frame.data[plane]) return;
   const auto* pixels = av_pix_fmt_desc_get(static_cast<AVPixelFormat>(frame.format));
   const int shift = plane == 1 || plane == 2 ? pixels->log2_chroma_h : 0;
   const int rows = (frame.height + (1 << shift) - 1) >> shift;

@@ -5,6 +5,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -44,6 +45,22 @@ class Log final : public console_bridge::OutputHandler {
   std::lock_guard<std::mutex> lock_;
   std::string text_;
 };
+
+/// Returns the message of newer parsers in the words of older ones, "Error=XML_ERROR_PARSING
+/// ErrorID=6 (0x6) Line number=3: ..." as "Error reading line 3: parsing: ...".
+std::string plain_error(const std::string& log) {
+  constexpr std::string_view kError = "Error=XML_ERROR_", kLine = "Line number=";
+  const std::size_t line = log.find(kLine);
+  if (!log.starts_with(kError) || line == log.npos) return log;
+  std::string kind = log.substr(kError.size(), log.find(' ') - kError.size());
+  std::ranges::transform(kind, kind.begin(), [](unsigned char c) {
+    return c == '_' ? ' ' : static_cast<char>(std::tolower(c));
+  });
+  const std::string rest = log.substr(line + kLine.size());
+  const std::size_t colon = std::min(rest.find(':'), rest.size());
+  return fmt::format("Error reading line {}: {}{}", rest.substr(0, colon), kind,
+                     rest.substr(colon));
+}
 
 /// Returns a text for messages: one line without control characters.
 std::string one_line(std::string text) {
@@ -121,14 +138,19 @@ std::size_t behind_element(std::string_view text, std::string_view name) {
 }
 
 /// Returns a URDF text without comments and unused elements. Limits of joints get the effort and
-/// velocity that the specification asks for and many files leave out.
+/// velocity that the specification asks for and many files leave out. Lines keep their numbers.
 std::string text_for_parser(std::string_view text) {
   std::string out;
+  const auto leave_out = [&](std::size_t size) {
+    const auto lines = std::ranges::count(text.substr(0, size), '\n');
+    out.append(static_cast<std::size_t>(lines), '\n');
+    text.remove_prefix(size);
+  };
   while (!text.empty()) {
     if (text.starts_with("<!--")) {
-      text.remove_prefix(behind(text, "-->", 4));
+      leave_out(behind(text, "-->", 4));
     } else if (const std::string_view unused = unused_element(text); !unused.empty()) {
-      text.remove_prefix(behind_element(text, unused));
+      leave_out(behind_element(text, unused));
     } else if (is_element(text, "<limit")) {
       constexpr std::string_view kLimit = "<limit";
       const std::string_view inside = text.substr(0, behind(text, ">", 0));
@@ -165,9 +187,9 @@ urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file,
     hint =
         "; a <geometry> is a <box>, <cylinder>, <sphere> or <mesh>: make a capsule of a cylinder "
         "and two spheres, in a <visual> each, or of a mesh";
-  throw DataError(
-      fmt::format("{}: this is no valid URDF file: {}{}", file.string(),
-                  log.text().empty() ? "urdfdom does not read it" : one_line(log.text()), hint));
+  throw DataError(fmt::format(
+      "{}: this is no valid URDF file: {}{}", file.string(),
+      log.text().empty() ? "urdfdom does not read it" : one_line(plain_error(log.text())), hint));
 }
 
 }  // namespace hypotrack::articulated

@@ -29,14 +29,17 @@ class Residuals final : public ceres::CostFunction {
   ReducedProblem& problem_;
 };
 
-/// Ends the search with the budget, or with steps that no longer matter.
+/// Ends the search with the budget, or with steps that no longer matter. It measures the steps
+/// itself: up to the first success, Ceres 2.2 reports every step as 0.
 class Ending final : public ceres::IterationCallback {
  public:
   Ending(const ReducedProblem& problem, double tolerance)
       : problem_(problem), tolerance_(tolerance) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& iteration) override {
     const bool stepped = iteration.iteration > 0 && iteration.step_is_valid;
-    const bool converged = stepped && iteration.step_norm < tolerance_;
+    const bool converged = stepped && (problem_.last_offsets() - accepted_).norm() < tolerance_;
+    if (iteration.iteration == 0 || iteration.step_is_successful)
+      accepted_ = problem_.last_offsets();
     return converged || problem_.finished() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
                                             : ceres::SOLVER_CONTINUE;
   }
@@ -44,6 +47,7 @@ class Ending final : public ceres::IterationCallback {
  private:
   const ReducedProblem& problem_;
   double tolerance_;
+  Eigen::VectorXd accepted_;
 };
 
 ceres::Solver::Options options_for(const CeresParams& params) {

@@ -51,6 +51,7 @@ bool ReducedProblem::try_evaluate(const double* offsets, double* residuals, doub
 }
 
 bool ReducedProblem::evaluate(const double* offsets, double* residuals, double* jacobian) {
+  last_offsets_ = Eigen::Map<const Eigen::VectorXd>(offsets, space_.dimension());
   try {
     if (!error_ && !finished_ && try_evaluate(offsets, residuals, jacobian)) return true;
   } catch (...) {  // must not pass through a library that knows no exceptions

@@ -27,6 +27,8 @@ class ReducedProblem {
   const OffsetSpace& space() const { return space_; }
   /// Returns the number of residuals: one more than free dimensions.
   int residual_count() const { return space_.dimension() + 1; }
+  /// Returns the offsets of the last call of evaluate().
+  const Eigen::VectorXd& last_offsets() const { return last_offsets_; }
   /// Returns the number of evaluations left.
   std::int64_t remaining() const { return limit_ - best_.result().evaluations; }
   /// Returns true once the budget does not suffice to go on.
@@ -55,6 +57,7 @@ class ReducedProblem {
   const Eigen::VectorXd start_;
   BestSoFar best_;
   Linearizer linearizer_;
+  Eigen::VectorXd last_offsets_;
   double last_cost_ = 0;         ///< of the last point evaluated
   std::optional<double> shift_;  ///< added to costs, which may be below the sum of squares
   bool finished_ = false;

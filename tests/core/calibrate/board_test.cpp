@@ -188,7 +188,7 @@ TEST(Board, APatternThatPicturesContradictIsNamed) {
 }
 
 TEST(Board, CornersDoNotDependOnTheSizeOfMarkers) {
-  for (const double share : {0.55, 0.65, 0.75}) {
+  for (const double share : {0.55, 0.65, 0.75, 0.8, 0.85}) {
     DrawnBoard drawn("charuco:6x4", true, share);
     const BoardCorners found = BoardFinder(drawn.board).find(drawn.picture);
     EXPECT_EQ(found.ids.size(), 15u) << share;

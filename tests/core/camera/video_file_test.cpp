@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <array>
 #include <fstream>
 #include <opencv2/core.hpp>
 
@@ -189,12 +190,21 @@ TEST_F(VideoFiles, DamagedFramesAreToldAndNotConcealed) {
 }
 
 TEST_F(VideoFiles, DamagedPacketsAreMissingFramesAndMoveNoOthers) {
-  for (const char* codec : {"libvpx-vp9", "libvpx", "mpeg4", "mjpeg"}) {
-    SCOPED_TRACE(codec);
-    test::VideoRecipe recipe{.codec = codec, .times = every(60, 8), .damaged = 3};
+  const std::array<std::array<const char*, 2>, 8> files{{{"libvpx-vp9", "a.mkv"},
+                                                         {"libvpx", "a.mkv"},
+                                                         {"mpeg4", "a.mkv"},
+                                                         {"libx264", "a.mkv"},
+                                                         {"mjpeg", "a.mkv"},
+                                                         {"png", "a.mkv"},
+                                                         {"png", "a.avi"},
+                                                         {"png", "a.mov"}}};
+  for (const auto& [codec, name] : files) {
+    SCOPED_TRACE(std::string(codec) + " " + name);
+    test::VideoRecipe recipe{.codec = codec, .tick = {1, 10}, .times = every(1, 8), .damaged = 3};
     if (recipe.codec == "mjpeg") recipe.pixels = AV_PIX_FMT_YUVJ420P;
-    const auto video = written("a.mkv", recipe);
-    const bool key_frames = recipe.codec == "mjpeg";
+    if (recipe.codec == "png") recipe.pixels = AV_PIX_FMT_GRAY8;
+    const auto video = written(name, recipe);
+    const bool key_frames = recipe.codec == "mjpeg" || recipe.codec == "png";
     const double first = read(*video, 0).at<cv::Vec3b>(20, 20)[0];
     const double step = key_frames ? 10 : 10 * 255 / 219.0;
     ASSERT_EQ(video->info().times.size(), 8);

@@ -1,7 +1,10 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <string>
 
 #include "mesh_files.hpp"
 
@@ -88,6 +91,25 @@ TEST_F(DamagedMesh, JointOutOfRangeIsNoBone) {
   GlbContent content;
   content.joints[2] = {77, 0, 0, 0};
   EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("no bone holds vertex 2 of mesh"));
+}
+
+TEST_F(DamagedMesh, VerticesAreNumberedAsInTheFileWhateverTrianglesUse) {
+  GlbContent content;
+  content.positions.insert(content.positions.begin(), 2, {0.1f, 0.1f, 0.1f});
+  content.joints.insert(content.joints.begin(), 2, {0});
+  content.weights.insert(content.weights.begin(), 2, {1, 0, 0, 0});
+  std::ranges::reverse(content.indices);
+  for (std::uint16_t& corner : content.indices) corner += 2;
+  const Mesh mesh = import_mesh(write_file(folder_.path() / "a.glb", glb(content))).mesh;
+  ASSERT_EQ(mesh.vertices.cols(), 4);
+  for (Eigen::Index v = 0; v < 4; ++v)
+    EXPECT_EQ(mesh.bone_weights.col(v).maxCoeff(), mesh.vertices(2, v) == 1 ? 0.75f : 1.0f);
+  for (const std::size_t vertex : {2, 3, 4, 5}) {
+    GlbContent damaged = content;
+    damaged.weights[vertex] = {};
+    EXPECT_THAT(error("a.glb", glb(damaged)),
+                HasSubstr("no bone holds vertex " + std::to_string(vertex) + " of mesh"));
+  }
 }
 
 TEST_F(DamagedMesh, IndexOutOfRangeIsNamed) {

@@ -112,6 +112,26 @@ TEST_F(GltfNumbers, TextureCoordinatesOfBytesAndShortsAreNumbersFromZeroToOne) {
   EXPECT_TRUE(uv_of(normalized<std::uint16_t>(uvs), kUnsignedShort).isApprox(floats, 1e-4f));
 }
 
+TEST_F(GltfNumbers, TextureCoordinatesAreDrawnAsTheFloatsThatTheirNumbersAre) {
+  const std::vector<std::array<float, 2>> uvs = {{0, 0}, {0.95f, 0}, {0, 0.95f}, {0.2f, 0.611f}};
+  file("t.ppm", "P6\n1 1\n255\nabc");
+  const auto uv_of = [&](const auto& values, int type) {
+    const GlbWriter writer = tetrahedron([&](GlbWriter& to, Json& attributes) {
+      attributes["TEXCOORD_0"] = to.add(values, "VEC2", type, type != kFloat);
+    });
+    return Eigen::Matrix2Xf(read(writer, {.texture = folder_.path() / "t.ppm"}).mesh.uv);
+  };
+  const auto expect_same = [&](const auto& whole, int type, double most) {
+    auto floats = uvs;
+    for (std::size_t i = 0; i < uvs.size(); ++i)
+      for (std::size_t k = 0; k < 2; ++k) floats[i][k] = static_cast<float>(whole[i][k] / most);
+    EXPECT_EQ(uv_of(whole, type), uv_of(floats, kFloat));
+    EXPECT_NE(uv_of(whole, type), uv_of(uvs, kFloat));
+  };
+  expect_same(normalized<std::uint8_t>(uvs), kUnsignedByte, 255);
+  expect_same(normalized<std::uint16_t>(uvs), kUnsignedShort, 65535);
+}
+
 TEST_F(GltfNumbers, ColorsOfBytesAndShortsAreNumbersFromZeroToOne) {
   const auto color_of = [&](const auto& values, int type) {
     return read(tetrahedron([&](GlbWriter& to, Json& attributes) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# check_format.sh SOURCE_DIR: fails if clang-format would change a source.
+# check_format.sh SOURCE_DIR CLANG_FORMAT: fails if the program would change a source.
 set -euo pipefail
 cd "$1"
 find core lab plugins tests tools bench examples -type f \
   \( -name '*.cpp' -o -name '*.hpp' -o -name '*.cu' -o -name '*.cuh' \) -print0 |
-  xargs -0 -P2 -n 40 clang-format --dry-run -Werror
+  xargs -0 -P2 -n 40 "$2" --dry-run -Werror

@@ -5,6 +5,7 @@ extern "C" {
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -33,8 +34,19 @@ std::string not_opened() {
   return "cannot be opened as a video; is it damaged, or coded in a way that FFmpeg does not know?";
 }
 
+/// Returns whether the pictures are PNG. FFmpeg's parser of them looks for a picture's end and
+/// joins a packet of a damaged one to the next.
+bool is_png(const AVFormatContext& format) {
+  return std::all_of(format.streams, format.streams + format.nb_streams, [](const AVStream* one) {
+    const bool pictures = one->codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
+                          !(one->disposition & AV_DISPOSITION_ATTACHED_PIC);
+    return !pictures || one->codecpar->codec_id == AV_CODEC_ID_PNG;
+  });
+}
+
 /// Lets FFmpeg look at the streams. Decoders see their first pictures here.
 int find_streams(AVFormatContext& format) {
+  if (format.nb_streams > 0 && is_png(format)) format.flags |= AVFMT_FLAG_NOPARSE;
   std::vector<AVDictionary*> options(format.nb_streams, nullptr);
   for (unsigned i = 0; i < format.nb_streams; ++i) {
     AVStream& stream = *format.streams[i];

@@ -26,8 +26,8 @@ void add_bones(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, Bones& kno
 void find_parents(const aiScene& scene, const Bones& known, Scene& out);
 
 /// Converts all meshes, placed by their nodes, and their bones. `uses` are those of the materials'
-/// pictures. Vertex colours that are `linear` in light are encoded.
-void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool linear,
+/// pictures. Of plain_gltf(), vertices are in the file's order and their colours are encoded.
+void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool gltf,
                     Scene& out);
 
 /// Converts materials and embedded textures as assimp has them, and returns the uses of pictures.

@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "model/import/reader/convert.hpp"
+#include "model/import/reader/gltf_meshes.hpp"
 #include "model/import/srgb.hpp"
 
 namespace hypotrack::mesh_wire::internal {
@@ -64,7 +68,7 @@ float brightest_number(const aiScene& scene, Scene& out) {
 struct Context {
   const aiScene& scene;
   const std::vector<PictureUse>& uses;
-  bool linear;
+  bool gltf;        // colours of vertices are linear in light, normals are numbers
   float brightest;  // number in colours of vertices
   Bones& bones;
 };
@@ -85,7 +89,7 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh,
     }
     if (mesh.HasVertexColors(0))
       part.colors.push_back(
-          convert_color(mesh.mColors[0][i] * (1 / context.brightest), context.linear));
+          convert_color(mesh.mColors[0][i] * (1 / context.brightest), context.gltf));
   }
   const bool flipped = file_from_mesh.Determinant() < 0;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -105,6 +109,29 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh,
   return part;
 }
 
+/// Brings a part's vertices into the order that they have in a glTF file. Vertices that assimp
+/// leaves out are copies of another one.
+void restore_order(const aiMesh& mesh, MeshPart& part) {
+  if (!mesh.HasNormals()) return;
+  std::vector<std::uint32_t> numbers;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i)
+    numbers.push_back(static_cast<std::uint32_t>(VertexNumber::of(mesh.mNormals[i])));
+  if (std::ranges::is_sorted(numbers) && numbers.back() + 1 == numbers.size()) return;
+  const auto restore = [&](auto& values) {
+    if (values.empty()) return;
+    auto sorted = values;
+    sorted.assign(*std::ranges::max_element(numbers) + std::size_t{1}, values.front());
+    for (std::size_t i = 0; i < numbers.size(); ++i) sorted[numbers[i]] = values[i];
+    values = std::move(sorted);
+  };
+  restore(part.positions);
+  restore(part.uvs);
+  restore(part.colors);
+  for (auto& corners : part.triangles)
+    for (std::uint32_t& corner : corners) corner = numbers[corner];
+  for (Weight& weight : part.weights) weight.vertex = numbers[weight.vertex];
+}
+
 void add_meshes(const aiNode& node, const Context& context, Scene& out) {
   const aiScene& scene = context.scene;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -113,6 +140,7 @@ void add_meshes(const aiNode& node, const Context& context, Scene& out) {
         mesh.HasBones() ? file_from_skinned_mesh(scene, mesh, out) : global_transform(&node);
     add_bones(mesh, file_from_mesh, context.bones, out);
     out.meshes.push_back(convert_mesh(mesh, file_from_mesh, context));
+    if (context.gltf) restore_order(mesh, out.meshes.back());
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
     add_meshes(*node.mChildren[i], context, out);
@@ -121,11 +149,11 @@ void add_meshes(const aiNode& node, const Context& context, Scene& out) {
 
 }  // namespace
 
-void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool linear,
+void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool gltf,
                     Scene& out) {
   Bones bones;
-  const float brightest = linear ? 1 : brightest_number(scene, out);
-  add_meshes(*scene.mRootNode, {scene, uses, linear, brightest, bones}, out);
+  const float brightest = gltf ? 1 : brightest_number(scene, out);
+  add_meshes(*scene.mRootNode, {scene, uses, gltf, brightest, bones}, out);
   find_parents(scene, bones, out);
 }
 

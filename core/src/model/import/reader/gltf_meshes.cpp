@@ -42,6 +42,20 @@ const GltfMeshes::Copied& GltfMeshes::floats(const Json& index,
   return known->second;
 }
 
+/// Returns an accessor of vertices' numbers.
+std::size_t GltfMeshes::numbers(std::size_t vertices) {
+  const auto [known, is_new] = numbers_.try_emplace(vertices);
+  if (is_new) {
+    GltfValues values{3, {}};
+    for (std::size_t i = 0; i < vertices; ++i) {
+      const VertexNumber number(i);
+      values.numbers.insert(values.numbers.end(), {number.low, number.high, 0});
+    }
+    known->second = to_.add<float>(values, kFloats);
+  }
+  return known->second;
+}
+
 void GltfMeshes::copy_indices(Json& primitive, std::size_t vertices, const std::string& name) {
   const std::uint64_t mode = whole(primitive, "mode", kTriangles);
   const Json& index = member(primitive, "indices");
@@ -138,6 +152,7 @@ void GltfMeshes::copy_primitive(Json& primitive, const std::vector<double>& weig
     if (key == "COLOR_0") to[key] = floats(index, {3, 4}, vertices, what).index;
   }
   copy_influences(from, vertices, name, to);
+  to["NORMAL"] = numbers(vertices);
   primitive["attributes"] = std::move(to);
   copy_indices(primitive, vertices, name);
 }
@@ -157,6 +172,7 @@ void GltfMeshes::keep_draco(Json& primitive, const std::string& name) {
   for (auto& [key, index] : primitive["attributes"].items())
     keep(index, key == "POSITION" || key.starts_with("TEXCOORD_") || key.starts_with("WEIGHTS_"));
   Json& packed = primitive["extensions"][kDraco];
+  primitive["attributes"].erase("NORMAL");  // they are no numbers of vertices
   packed["bufferView"] = to_.add_view(file_.view(member(packed, "bufferView")));
 }
 
