@@ -45,13 +45,30 @@ void Landmarks::prepare(const Observation& observation) {
   tbb::parallel_for(std::size_t{0}, views.size(),
                     [&](std::size_t i) { found[i] = finder_.find(observation, views[i], models); });
   for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t h = 0; h < hands_.size(); ++h)
-      take_hand(sights_[h], hands_[h].model, observation.views[views[i]].camera, found[i][h]);
+    const TileCamera& camera = observation.views[views[i]].camera;
+    for (std::size_t h = 0; h < hands_.size(); ++h) {
+      if (overlaps_another(observation, camera, models, h)) found[i][h].reset();
+      take_hand(sights_[h], hands_[h].model, camera, found[i][h]);
+    }
   }
   check_sides(observation, views, models);
   for (HandSights& hand : sights_) {
     for (Sight& sight : hand.sights) sight.factor /= std::sqrt(static_cast<double>(views.size()));
   }
+}
+
+bool Landmarks::overlaps_another(const Observation& observation, const TileCamera& camera,
+                                 const std::vector<ModelHand>& models, std::size_t hand) const {
+  const auto position = [&](std::size_t h) {
+    return observation.start.segment<3>(hands_[h].item->offset);
+  };
+  for (std::size_t h = 0; h < models.size(); ++h) {
+    // A hidden model has the position of a shown one.
+    if (h == hand || position(h) == position(hand)) continue;
+    if (overlap(directions_to(models[h].start, camera), directions_to(models[hand].start, camera)))
+      return true;
+  }
+  return false;
 }
 
 void Landmarks::check_sides(const Observation& observation, const std::vector<std::size_t>& views,

@@ -59,6 +59,9 @@ class Landmarks : public Objective, public ResidualTerm {
 
   /// Returns each hand at the start of the search and in the last frame.
   std::vector<ModelHand> model_hands(const Observation& observation) const;
+  /// Returns whether another model's hand lies over a model's hand in a view.
+  bool overlaps_another(const Observation& observation, const TileCamera& camera,
+                        const std::vector<ModelHand>& models, std::size_t hand) const;
   /// Warns if all these views show a hand of the other side where a model is.
   void check_sides(const Observation& observation, const std::vector<std::size_t>& views,
                    const std::vector<ModelHand>& models);

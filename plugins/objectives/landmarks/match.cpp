@@ -41,6 +41,12 @@ std::vector<std::optional<SeenHand>> match(std::span<const WantedHand> wanted,
   return out;
 }
 
+bool overlap(const HandPoints3D& a, const HandPoints3D& b) {
+  constexpr double kShare = 0.5;  // of the larger hand's apparent size, between their centres
+  return (center_of(a) - center_of(b)).norm() <
+         kShare * std::max(apparent_size(a), apparent_size(b));
+}
+
 bool same_hand(const SeenHand& a, const SeenHand& b) {
   constexpr double kShare = 0.2;  // of the hand's apparent size
   return mean_angle(a.directions, b.directions) <

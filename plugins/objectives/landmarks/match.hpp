@@ -20,6 +20,10 @@ struct WantedHand {
 std::vector<std::optional<SeenHand>> match(std::span<const WantedHand> wanted,
                                            std::span<const SeenHand> seen);
 
+/// Returns whether hands lie over each other as a camera sees them: their centres are nearer than
+/// half the larger one's apparent size. Detectors mix up their landmarks. False if NaN only.
+bool overlap(const HandPoints3D& a, const HandPoints3D& b);
+
 /// Returns whether two detections are of the same hand of a picture.
 bool same_hand(const SeenHand& a, const SeenHand& b);
 

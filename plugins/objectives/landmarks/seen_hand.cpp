@@ -80,16 +80,22 @@ HandPoints3D directions_to(const HandPoints3D& points, const TileCamera& camera)
   return (points.colwise() - eye_of(camera)).colwise().normalized();
 }
 
-double apparent_size(const HandPoints3D& directions) {
+Eigen::Vector3d center_of(const HandPoints3D& directions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double count = 0, reach = 0;
+  double count = 0;
   for (const auto& d : directions.colwise()) {
     if (!d.allFinite()) continue;
     sum += d;
     ++count;
   }
+  return sum / count;
+}
+
+double apparent_size(const HandPoints3D& directions) {
+  const Eigen::Vector3d center = center_of(directions);
+  double reach = 0;
   for (const auto& d : directions.colwise()) {
-    if (d.allFinite()) reach = std::max(reach, (d - sum / count).norm());
+    if (d.allFinite()) reach = std::max(reach, (d - center).norm());
   }
   return 2 * reach;
 }

@@ -34,6 +34,9 @@ HandPoints moved(const HandPoints& hand, const HandPoints& from, const HandPoint
 /// Returns unit vectors from a camera to points of the world.
 HandPoints3D directions_to(const HandPoints3D& points, const TileCamera& camera);
 
+/// Returns the mean of directions; those that are NaN do not count. NaN if all are.
+Eigen::Vector3d center_of(const HandPoints3D& directions);
+
 /// Returns how large a hand looks: twice its reach from its centre, radians. NaN do not count.
 double apparent_size(const HandPoints3D& directions);
 

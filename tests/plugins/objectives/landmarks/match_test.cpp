@@ -53,6 +53,14 @@ TEST(Match, IsNothingWithoutDetections) {
   EXPECT_FALSE(match(std::vector{wanted_at(0, true)}, {})[0]);
 }
 
+TEST(HandsThatOverlap, HaveCentresNearerThanHalfTheLargerSize) {
+  const auto at = [](double x, double size) { return hand_at(x, 1, size).directions; };
+  EXPECT_TRUE(overlap(at(0, 0.2), at(0.08, 0.2)));
+  EXPECT_FALSE(overlap(at(0, 0.2), at(0.15, 0.2)));
+  EXPECT_TRUE(overlap(at(0, 0.1), at(0.08, 0.2)));
+  EXPECT_TRUE(overlap(at(0, 0.2), at(0.08, 0.1)));
+}
+
 TEST(SameHand, IsOneNearlyAtTheSamePlace) {
   EXPECT_TRUE(same_hand(hand_at(0, 1), hand_at(0.02, 1)));
   EXPECT_FALSE(same_hand(hand_at(0, 1), hand_at(0.1, 1)));
