@@ -97,14 +97,13 @@ std::vector<cv::Point> corners(const cv::Mat1b& picture, std::size_t most) {
 
 std::vector<RowMatch> match_rows(const GreyPair& pictures, const Eigen::Vector2d& center,
                                  const MatchRange& range) {
-  const auto& [first, second] = pictures;
   const int disparity = static_cast<int>(range.disparity);
-  const std::vector<cv::Point> all = corners(first.full, kCorners);
+  const std::vector<cv::Point> all = corners(pictures[0].full, kCorners);
   std::vector<std::optional<Eigen::Vector2d>> matches(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const cv::Point& at = all[i];
     const cv::Rect row(at.x - disparity, at.y - range.rows, disparity + kFine, 2 * range.rows);
-    matches[i] = find(first, at, second, row);
+    matches[i] = find(pictures[0], at, pictures[1], row);
   });
   std::vector<RowMatch> out;
   for (std::size_t i = 0; i < all.size(); ++i)
