@@ -75,12 +75,6 @@ struct HostLinearizer::Impl {
       residuals.resize(pixels);
       slopes.resize(pixels);
     }
-    void scale() {
-      if (factor == 1) return;
-      const auto pixels = static_cast<Eigen::Index>(residuals.size());
-      Eigen::Map<Eigen::ArrayXf>(residuals.data(), pixels) *= factor;
-      Eigen::Map<Eigen::ArrayXf>(slopes.data(), pixels) *= factor;
-    }
   };
 
   /// All terms of one view.
@@ -89,6 +83,7 @@ struct HostLinearizer::Impl {
     std::vector<PixelPart> parts = {};
     std::vector<PixelSlopes> slopes = {};  // of the parts
     std::vector<PixelRows> bands;          // of the tile's rows
+    BandTriangles triangles = {};
   };
 
   Impl(const Scene& own_scene, const std::vector<ObjectiveTerm>& scene_terms, int threads,
@@ -136,12 +131,11 @@ struct HostLinearizer::Impl {
       const auto [part, tile] = parts[i];
       part->resize(static_cast<std::size_t>(tile->width) * static_cast<std::size_t>(tile->height));
       part->term->write_slopes(hypothesis, part->index, part->residuals, part->slopes);
-      part->scale();
     });
     for (ViewPart& view : views) {
       view.slopes.clear();
       for (const PixelPart& part : view.parts) {
-        view.slopes.push_back({part.residuals.data(), part.slopes.data()});
+        view.slopes.push_back({part.residuals.data(), part.slopes.data(), part.factor});
       }
     }
   }
@@ -170,19 +164,30 @@ struct HostLinearizer::Impl {
   /// Sums the products of the pixels' rows, in bands of every view.
   void sum_rows(const RenderedHypothesis& hypothesis, const std::vector<float>& per_step,
                 float blur) {
+    const auto drawn = [&](std::size_t view) {
+      const HypothesisDrawer& centre = neighbours.centre();
+      return DrawnView{&plan,
+                       &frame.views[view],
+                       &centre.visible(view),
+                       frame.pair && view == 1,
+                       hypothesis.views[view].inverse_depth,
+                       centre.records(view),
+                       neighbours.records(view).data(),
+                       per_step.data(),
+                       static_cast<int>(per_step.size()),
+                       neighbours.movers(view)};
+    };
     std::vector<std::vector<int>> rows(views.size());
-    for (std::size_t i = 0; i < views.size(); ++i)
+    tbb::parallel_for(std::size_t{0}, views.size(), [&](std::size_t i) {
       rows[i] = band_rows(hypothesis.views[views[i].view]);
+      find_triangles(drawn(views[i].view), rows[i], views[i].triangles);
+    });
     tbb::parallel_for(std::size_t{0}, views.size() * bands, [&](std::size_t i) {
       ViewPart& part = views[i / bands];
       const std::size_t band = i % bands;
-      const HypothesisDrawer& centre = neighbours.centre();
-      const DepthTile& tile = hypothesis.views[part.view];
-      part.bands[band].sum(
-          {&plan, &frame.views[part.view], &centre.visible(part.view), frame.pair && part.view == 1,
-           tile.inverse_depth, centre.records(part.view), neighbours.records(part.view).data(),
-           per_step.data(), static_cast<int>(per_step.size()), neighbours.movers(part.view)},
-          part.slopes, blur, {rows[i / bands][band], rows[i / bands][band + 1]});
+      part.bands[band].sum(drawn(part.view), part.slopes, blur,
+                           {rows[i / bands][band], rows[i / bands][band + 1]},
+                           part.triangles[band]);
     });
   }
 

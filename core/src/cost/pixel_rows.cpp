@@ -2,8 +2,11 @@
 
 #define HWY_TARGET_INCLUDE "cost/pixel_rows.cpp"
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <hypotrack/foreach_target-inl.hpp>
+#include <iterator>
 
 #include "scene/block_vectors-inl.hpp"
 
@@ -12,12 +15,16 @@
 namespace hypotrack {
 namespace {
 
+alignas(64) constexpr float kLaneNumbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+static_assert(std::size(kLaneNumbers) == kBlock);
+
 /// Input and output of the kernel.
 struct Work {
   const DrawnView& drawn;
   std::span<const PixelSlopes> terms;
   float blur;
   TileRows rows;
+  std::span<const std::uint32_t> triangles;
   std::size_t columns;
   const float* slopes;     ///< of all terms together, from the first row
   const float* residuals;  ///< belonging to `slopes`
@@ -109,9 +116,7 @@ class Walk {
   }
 
   void run() {
-    for (int i = 0; i < kSizeClasses; ++i) {
-      for (std::size_t t = 0; t < d_.visible->count[i]; ++t) triangle(d_.visible->list[i][t]);
-    }
+    for (const std::uint32_t number : work_.triangles) triangle(number);
     flush();
   }
 
@@ -136,6 +141,12 @@ class Walk {
     return work_.known[vertex] & kMoves;
   }
 
+  bool moves_any(const std::uint32_t* corners) {
+    bool moved = false;
+    for (int k = 0; k < 3; ++k) moved |= moves(corners[k]);
+    return moved;
+  }
+
   bool find_motion(std::uint32_t corner, float* rows) const {
     std::fill_n(rows, 3 * work_.columns, 0.0f);
     const Point here = point(corner);
@@ -151,18 +162,8 @@ class Walk {
     return !movers.empty();
   }
 
-  bool meets_rows(const std::uint32_t* corners) const {
-    const float a = point(corners[0]).y, b = point(corners[1]).y, c = point(corners[2]).y;
-    return std::max({a, b, c}) >= static_cast<float>(work_.rows.first) &&
-           std::min({a, b, c}) <= static_cast<float>(work_.rows.end - 1);
-  }
-
   void triangle(std::uint32_t number) {
     const std::uint32_t* corners = d_.plan->corners.data() + 4 * std::size_t{number};
-    if (!meets_rows(corners)) return;
-    bool moved = false;
-    for (int k = 0; k < 3; ++k) moved |= moves(corners[k]);
-    if (!moved) return;
     const Point a = point(corners[0]), b = point(corners[1]), c = point(corners[2]);
     const ViewProjection& view = *d_.view;
     const int x0 = static_cast<int>(std::ceil(std::max(std::min({a.x, b.x, c.x}), 0.0f)));
@@ -182,25 +183,58 @@ class Walk {
     share_dx_ = a_dx * (a.w - c.w) + b_dx * (b.w - c.w);
     share_dy_ = a_dy * (a.w - c.w) + b_dy * (b.w - c.w);
     has_surface_ = false;
+    bool moved = false;  // known once a pixel shows the triangle: most are small
+    const Vec right_a = hn::Set(f, a_dx), right_b = hn::Set(f, b_dx), w_c = hn::Set(f, c.w);
+    const Vec w_a = hn::Set(f, a.w - c.w), w_b = hn::Set(f, b.w - c.w);
+    const Vec lanes = hn::Load(f, kLaneNumbers), one = hn::Set(f, 1.0f);
+    const Vec width = hn::Set(f, last_x - ox);
+    const int aligned_x0 = x0 - x0 % static_cast<int>(kLanes);  // as the tile's rows are
     for (int y = y0; static_cast<float>(y) <= last_y; ++y) {
-      for (int x = x0; static_cast<float>(x) <= last_x; ++x) {
-        const auto dx = static_cast<float>(x - x0), dy = static_cast<float>(y - y0);
-        const float share_a = a_0 + dx * a_dx + dy * a_dy, share_b = b_0 + dx * b_dx + dy * b_dy;
-        const float share_c = 1 - share_a - share_b;
-        if (std::min({share_a, share_b, share_c}) < -kInclusive) continue;
-        const float w = c.w + share_a * (a.w - c.w) + share_b * (b.w - c.w);
-        const float nearest = d_.tile[y * view.stride + x];
-        if (!(w >= nearest * (1 - kSameDepth))) continue;
-        const int place = (y - work_.rows.first) * view.width + x;
-        if (work_.taken[place]) continue;
-        work_.taken[place] = 1;
-        const float shares[3] = {share_a, share_b, share_c};
-        // On a surface seen at a grazing angle, a small motion moves the pixel far along it.
-        const bool steep = std::max(std::abs(share_dx_), std::abs(share_dy_)) > kStep * w * w;
-        if (work_.slopes[place] != 0 && !steep) surface(place, shares);
-        edges(x, y, w, shares);
+      const auto dy = static_cast<float>(y - y0);
+      const float* nearest = d_.tile + std::ptrdiff_t{y} * view.stride;
+      for (int x = aligned_x0; static_cast<float>(x) <= last_x; x += static_cast<int>(kLanes)) {
+        const Vec dx = hn::Add(lanes, hn::Set(f, static_cast<float>(x - x0)));
+        const Vec share_a =
+            hn::MulAdd(hn::Set(f, dy), hn::Set(f, a_dy), hn::MulAdd(dx, right_a, hn::Set(f, a_0)));
+        const Vec share_b =
+            hn::MulAdd(hn::Set(f, dy), hn::Set(f, b_dy), hn::MulAdd(dx, right_b, hn::Set(f, b_0)));
+        const Vec share_c = hn::Sub(hn::Sub(one, share_a), share_b);
+        const Vec w = hn::MulAdd(share_b, w_b, hn::MulAdd(share_a, w_a, w_c));
+        const Mask inside =
+            hn::Ge(hn::Min(hn::Min(share_a, share_b), share_c), hn::Set(f, -kInclusive));
+        const Mask in_box = hn::And(hn::Ge(dx, hn::Zero(f)), hn::Le(dx, width));
+        const Vec seen = hn::Mul(hn::Load(f, nearest + x), hn::Set(f, 1 - kSameDepth));
+        const Mask shown = hn::And(hn::And(inside, in_box), hn::Ge(w, seen));
+        if (hn::AllFalse(f, shown)) continue;
+        if (!moved && !moves_any(corners)) return;
+        moved = true;
+        hn::Store(share_a, f, share_a_);
+        hn::Store(share_b, f, share_b_);
+        hn::Store(share_c, f, share_c_);
+        hn::Store(w, f, w_);
+        hn::StoreMaskBits(f, shown, shown_);
+        for (std::uint32_t bits = shown_bits(); bits != 0; bits &= bits - 1)
+          pixel_at(x, y, static_cast<std::size_t>(std::countr_zero(bits)));
       }
     }
+  }
+
+  std::uint32_t shown_bits() const {
+    return kLanes <= 8 ? shown_[0] : shown_[0] | std::uint32_t{shown_[1]} << 8;
+  }
+
+  /// Takes the pixel of a lane of the vectors that begin at (x, y).
+  void pixel_at(int x, int y, std::size_t lane) {
+    x += static_cast<int>(lane);
+    const int place = (y - work_.rows.first) * d_.view->width + x;
+    if (work_.taken[place]) return;
+    work_.taken[place] = 1;
+    const float w = w_[lane];
+    const float shares[3] = {share_a_[lane], share_b_[lane], share_c_[lane]};
+    // On a surface seen at a grazing angle, a small motion moves the pixel far along it.
+    const bool steep = std::max(std::abs(share_dx_), std::abs(share_dy_)) > kStep * w * w;
+    if (work_.slopes[place] != 0 && !steep) surface(place, shares);
+    edges(x, y, w, shares);
   }
 
   void edges(int x, int y, float w, const float (&shares)[3]) {
@@ -239,7 +273,8 @@ class Walk {
     if (w - behind <= kStep * w * behind) return;
     float square = 0, product = 0;
     for (const PixelSlopes& term : work_.terms) {
-      const float r_p = term.residuals[p], r_q = term.residuals[q], change = r_p - r_q;
+      const float r_p = term.factor * term.residuals[p], r_q = term.factor * term.residuals[q];
+      const float change = r_p - r_q;
       square += change * change;
       product += change * 0.5f * (r_p + r_q);
     }
@@ -282,6 +317,9 @@ class Walk {
   const std::uint32_t* corners_ = nullptr;
   float share_dx_ = 0, share_dy_ = 0;  // gradient of 1/z in the image
   bool has_surface_ = false;
+  // A row of its pixels: the corners' shares, 1/z and a bit for each that it shows.
+  HWY_ALIGN float share_a_[kLanes], share_b_[kLanes], share_c_[kLanes], w_[kLanes];
+  std::uint8_t shown_[8] = {};
 };
 
 void walk(const Work& work) { Walk(work).run(); }
@@ -296,8 +334,35 @@ namespace {
 HWY_EXPORT(walk);
 }  // namespace
 
+void find_triangles(const DrawnView& drawn, std::span<const int> rows, BandTriangles& bands) {
+  bands.resize(rows.size() - 1);
+  for (std::vector<std::uint32_t>& band : bands) band.clear();
+  std::vector<std::size_t> band_of;
+  for (std::size_t band = 0; band < bands.size(); ++band)
+    band_of.resize(static_cast<std::size_t>(std::max(rows[band + 1] - rows[0], 0)), band);
+  if (band_of.empty()) return;
+  const auto first = static_cast<float>(rows.front()), last = static_cast<float>(rows.back() - 1);
+  const auto band_at = [&](int y) { return band_of[static_cast<std::size_t>(y - rows.front())]; };
+  for (int i = 0; i < kSizeClasses; ++i) {
+    for (std::size_t t = 0; t < drawn.visible->count[i]; ++t) {
+      const std::uint32_t number = drawn.visible->list[i][t];
+      const std::uint32_t* corners = drawn.plan->corners.data() + 4 * std::size_t{number};
+      const auto y = [&](int k) { return drawn.records[corners[k] + 1]; };
+      const float highest = std::max(std::min({y(0), y(1), y(2)}), first);
+      const float lowest = std::min(std::max({y(0), y(1), y(2)}), last);
+      // Not std::ceil, which is a call.
+      auto top = static_cast<int>(highest);
+      if (static_cast<float>(top) < highest) ++top;
+      const auto bottom = static_cast<int>(lowest);
+      if (top > bottom) continue;
+      for (std::size_t band = band_at(top); band <= band_at(bottom); ++band)
+        bands[band].push_back(number);
+    }
+  }
+}
+
 void PixelRows::sum(const DrawnView& drawn, std::span<const PixelSlopes> terms, float blur,
-                    TileRows rows) {
+                    TileRows rows, std::span<const std::uint32_t> triangles) {
   columns_ = (static_cast<std::size_t>(drawn.dimension) + 1 + kBlock - 1) / kBlock * kBlock;
   sums_.assign(columns_ * columns_, 0.0f);
   known_.assign(drawn.plan->vertex_count, 0);
@@ -311,7 +376,7 @@ void PixelRows::sum(const DrawnView& drawn, std::span<const PixelSlopes> terms, 
                 0);
   join_terms(terms, drawn.view->width, rows);
   HWY_DYNAMIC_DISPATCH(walk)
-  ({drawn, terms, blur, rows, columns_, slopes_.data(), residuals_.data(), taken_.data(),
+  ({drawn, terms, blur, rows, triangles, columns_, slopes_.data(), residuals_.data(), taken_.data(),
     known_.data(), motion_.get(), sums_.data()});
 }
 
@@ -323,8 +388,8 @@ void PixelRows::join_terms(std::span<const PixelSlopes> terms, int width, TileRo
   residuals_.setZero(count);
   for (const PixelSlopes& term : terms) {
     const Pixels slopes(term.slopes + first, count), residuals(term.residuals + first, count);
-    slopes_ += slopes.square();
-    residuals_ += slopes * residuals;
+    slopes_ += (term.factor * slopes).square();
+    residuals_ += (term.factor * slopes) * (term.factor * residuals);
   }
   slopes_ = slopes_.sqrt();
   residuals_ /= slopes_;  // not read where the slope is 0

@@ -32,16 +32,25 @@ struct DrawnView {
   const std::vector<int>* movers = nullptr;
 };
 
-/// A term's residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps.
+/// A term's residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps, both to
+/// be multiplied by `factor`.
 struct PixelSlopes {
   const float* residuals = nullptr;
   const float* slopes = nullptr;
+  float factor = 1;
 };
 
 /// Rows of a tile: first <= y < end.
 struct TileRows {
   int first = 0, end = 0;
 };
+
+/// Visible triangles of each band of rows, in the order of the visible ones.
+using BandTriangles = std::vector<std::vector<std::uint32_t>>;
+
+/// Finds the visible triangles that meet each band. `rows`: the first row of each band, and the
+/// last band's end.
+void find_triangles(const DrawnView& drawn, std::span<const int> rows, BandTriangles& bands);
 
 /// Sums J^T J and J^T r of the pixel residuals of all terms, from slopes and the motion of the
 /// drawn surface.
@@ -63,9 +72,11 @@ struct TileRows {
 /// f = sqrt(sum f_t^2), with the residual sum f_t r_t / f, has the same products.
 class PixelRows {
  public:
-  /// Sums over the pixels of some rows of a view, whose size is the tile's. `blur`: pixels over
-  /// which a crossing silhouette changes a residual.
-  void sum(const DrawnView& drawn, std::span<const PixelSlopes> terms, float blur, TileRows rows);
+  /// Sums over the pixels of some rows of a view, whose size is the tile's, and of triangles that
+  /// meet them (find_triangles()). `blur`: pixels over which a crossing silhouette changes a
+  /// residual.
+  void sum(const DrawnView& drawn, std::span<const PixelSlopes> terms, float blur, TileRows rows,
+           std::span<const std::uint32_t> triangles);
 
   /// Returns the number of columns of the sums: D + 1, rounded up to whole vectors.
   std::size_t columns() const { return columns_; }

@@ -146,11 +146,11 @@ TileView Resampler::resample(const View& view, const TileCamera& tile,
   return out;
 }
 
-cv::Mat Resampler::resample_background(const cv::Mat& background, const TileCamera& tile,
+cv::Mat Resampler::resample_background(const cv::Mat& touched, const TileCamera& tile,
                                        const ResamplePlan& plan) const {
   const ImageMap map = this->map(tile);
   const cv::Mat samples =
-      look_up(background(plan.touched), lookups(map, tile.width, plan), tile.width, plan.reduction);
+      look_up(touched, lookups(map, tile.width, plan), tile.width, plan.reduction);
   cv::Mat color, known, out;
   cv::cvtColor(samples, color, cv::COLOR_BGRA2BGR);
   cv::extractChannel(samples, known, 3);

@@ -36,9 +36,9 @@ class Resampler {
   /// Depth comes from the nearest pixel, along the tile's optical axis, and is 0 outside.
   TileView resample(const View& view, const TileCamera& tile, const ResamplePlan& plan) const;
 
-  /// Resamples a background (8-bit BGRA, the camera's size) as `resample` does colours. Alpha is
-  /// 255 where all of a tile pixel's neighbours are known, otherwise 0.
-  cv::Mat resample_background(const cv::Mat& background, const TileCamera& tile,
+  /// Resamples the part of a background that the plan touches (8-bit BGRA) as `resample` does
+  /// colours. Alpha is 255 where all of a tile pixel's neighbours are known, otherwise 0.
+  cv::Mat resample_background(const cv::Mat& touched, const TileCamera& tile,
                               const ResamplePlan& plan) const;
 
  private:

@@ -1,47 +1,59 @@
 #include "color_model.hpp"
 
 #include <Eigen/Core>
-#include <numeric>
 
 namespace hypotrack::skin {
 namespace {
 
-/// Smooths counts along one axis of the bins with weights 1, 2, 1. `stride` is the distance between
-/// neighbouring levels.
-std::vector<double> spread_along(const std::vector<double>& counts, std::size_t stride) {
-  std::vector<double> out(kBins);
-  constexpr Eigen::Index kOthers = kLevels - 1;
+/// Smooths counts along one axis of the bins, twice with weights 1, 2, 1: with 1, 4, 6, 4, 1, and 5
+/// for the first and the last level themselves, whose first share is lost beyond the end. `stride`
+/// is the distance between neighbouring levels.
+void spread_along(const std::vector<double>& counts, std::size_t stride, std::vector<double>& out) {
+  constexpr Eigen::Index kInner = kLevels - 4, kLast = kLevels - 1;
   for (std::size_t first = 0; first < kBins; first += stride * kLevels) {
     const auto size = static_cast<Eigen::Index>(stride);
     const Eigen::Map<const Eigen::ArrayXXd> from(counts.data() + first, size, kLevels);
     Eigen::Map<Eigen::ArrayXXd> to(out.data() + first, size, kLevels);
-    to = 2 * from;
-    to.rightCols(kOthers) += from.leftCols(kOthers);
-    to.leftCols(kOthers) += from.rightCols(kOthers);
+    const auto inner = [&](Eigen::Index level) { return from.middleCols(level, kInner); };
+    to.middleCols(2, kInner) = 6 * inner(2) + 4 * (inner(1) + inner(3)) + (inner(0) + inner(4));
+    const auto spread_end = [&](Eigen::Index end, Eigen::Index inwards) {
+      const auto level = [&](Eigen::Index i) { return from.col(end + i * inwards); };
+      to.col(end) = 5 * level(0) + 4 * level(1) + level(2);
+      to.col(end + inwards) = 6 * level(1) + 4 * (level(0) + level(2)) + level(3);
+    };
+    spread_end(0, 1);
+    spread_end(kLast, -1);
   }
+}
+
+/// Counts that are smoothed, and what to multiply them by to get the frequencies of colours.
+struct Smoothed {
+  std::vector<double> counts;
+  double share = 0;
+};
+
+Smoothed smooth(const std::vector<double>& counts) {
+  constexpr std::size_t kRow = kLevels, kPlane = kRow * kLevels;
+  Smoothed out{std::vector<double>(kBins)};
+  std::vector<double> between(kBins);
+  spread_along(counts, 1, out.counts);
+  spread_along(out.counts, kRow, between);
+  spread_along(between, kPlane, out.counts);
+  const double sum = Eigen::Map<const Eigen::ArrayXd>(out.counts.data(), kBins).sum();
+  out.share = sum > 0 ? 1 / sum : 0;
   return out;
 }
 
-/// Returns the frequencies of colours: smoothed counts divided by their sum.
-std::vector<double> frequencies(std::vector<double> out) {
-  for (const std::size_t stride :
-       {std::size_t{1}, std::size_t{kLevels}, std::size_t{kLevels} * kLevels}) {
-    out = spread_along(spread_along(out, stride), stride);
-  }
-  const double sum = std::accumulate(out.begin(), out.end(), 0.0);
-  for (double& value : out) value = sum > 0 ? value / sum : 0;
-  return out;
-}
-
-/// Returns P of every bin.
-std::vector<double> ratios(const std::vector<double>& foreground,
-                           const std::vector<double>& background) {
+/// Writes P of every bin.
+void write_ratios(const std::vector<double>& foreground, const std::vector<double>& background,
+                  std::vector<double>& ratios) {
   // Frequency of a colour, one in a million pixels, that says nothing.
   constexpr double kUnseen = 1e-6;
-  std::vector<double> f = frequencies(foreground);
-  const std::vector<double> b = frequencies(background);
-  for (std::size_t i = 0; i < kBins; ++i) f[i] /= f[i] + b[i] + kUnseen;
-  return f;
+  const Smoothed f = smooth(foreground), b = smooth(background);
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const double here = f.share * f.counts[i];
+    ratios[i] = here / (here + b.share * b.counts[i] + kUnseen);
+  }
 }
 
 /// A pixel that counts.
@@ -84,7 +96,7 @@ void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::M
       foreground[pixel.bin] += share;
       background[pixel.bin] += pixel.weight * (1 - share);
     }
-    ratio_ = ratios(foreground, background);
+    write_ratios(foreground, background, ratio_);
   }
   foreground_ = foreground;
   background_ = background;
@@ -96,10 +108,10 @@ std::vector<float> ColorModel::probabilities() const {
 }
 
 std::vector<ColorFrequency> ColorModel::color_frequencies() const {
-  const std::vector<double> f = frequencies(foreground_), b = frequencies(background_);
+  const Smoothed f = smooth(foreground_), b = smooth(background_);
   std::vector<ColorFrequency> out(kBins);
   for (std::size_t i = 0; i < kBins; ++i)
-    out[i] = {static_cast<float>(f[i]), static_cast<float>(b[i])};
+    out[i] = {static_cast<float>(f.share * f.counts[i]), static_cast<float>(b.share * b.counts[i])};
   return out;
 }
 

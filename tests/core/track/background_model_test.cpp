@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "every_target.hpp"
+#include "scene/simd_kernels.hpp"
 
 namespace hypotrack {
 namespace {
@@ -51,6 +55,35 @@ TEST(BackgroundModel, SaysNothingBeforeItLearnedOrOfWhatMoved) {
     return out;
   }();
   EXPECT_GT(cv::mean(background.changed(picture(0, false, 5)), stripes)[0], 0.9);
+}
+
+TEST(BackgroundModel, KeepsTheMeanWhereItIsKnown) {
+  const cv::Rect part(30, 10, 47, 40);  // columns that fill no whole vectors
+  BackgroundModel background;
+  EXPECT_FALSE(background.has_learned());
+  for (int i = 0; i < 30; ++i) background.learn(picture(i, false), disc());
+  ASSERT_TRUE(background.has_learned());
+  const cv::Mat4b known = background.background(part);
+  const cv::Mat3b shown = picture(0, false)(part);
+  const cv::Mat1b hidden = disc()(part);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) {
+      ASSERT_EQ(known(y, x)[3], hidden(y, x) ? 0 : 255) << x << " " << y;
+      for (int i = 0; i < 3 && !hidden(y, x); ++i)
+        ASSERT_NEAR(known(y, x)[i], shown(y, x)[i], 2);  // the noise
+    }
+}
+
+TEST(BackgroundModel, IsTheSameOnEveryInstructionSet) {
+  const cv::Rect all(0, 0, 77, 60);  // columns that fill no whole vectors
+  std::vector<cv::Mat4b> found;
+  test::on_every_target(compiled_simd_targets(), [&] {
+    BackgroundModel background;
+    for (int i = 0; i < 12; ++i)
+      background.learn(picture(i, i > 8)(all), i % 2 ? disc()(all) : cv::Mat1b());
+    found.push_back(background.background(all));
+  });
+  for (const cv::Mat4b& one : found) EXPECT_EQ(cv::norm(one, found[0], cv::NORM_INF), 0);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <opencv2/core/mat.hpp>
 
 #include "base/exported.hpp"
@@ -15,17 +16,18 @@ class BackgroundModel {
   /// Learns the pixels of a picture that are not in `models` (empty: all).
   void learn(const cv::Mat3b& picture, const cv::Mat1b& models);
 
-  /// Returns the means, with alpha 255 where they are known; empty before the first picture.
-  const cv::Mat4b& background() const { return background_; }
+  /// Returns whether any picture was learned.
+  bool has_learned() const { return !steady_.empty(); }
+  /// Returns the means of a part of the picture, with alpha 255 where they are known.
+  cv::Mat4b background(const cv::Rect& part) const;
 
   /// Returns a weight per pixel: 1 where it differs from the background or nothing is known, near 0
   /// where it is the same.
   cv::Mat1f changed(const cv::Mat3b& picture) const;
 
  private:
-  cv::Mat3f mean_;
-  cv::Mat1b steady_;  ///< 0 .. 255: how well the last pictures agreed with the mean
-  cv::Mat4b background_;
+  std::array<cv::Mat1s, 3> means_;  ///< of a channel, in units of BackgroundRow
+  cv::Mat1b steady_;                ///< of BackgroundRow
 };
 
 }  // namespace internal

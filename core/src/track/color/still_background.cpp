@@ -41,12 +41,12 @@ void StillBackground::learn(const Frame& frame, const Eigen::VectorXd& state) {
 }
 
 void StillBackground::add_to(TilePlan& plan, std::span<const Resampler> resamplers) const {
-  for (std::size_t i = 0; i < views_.size(); ++i) {
-    const cv::Mat4b& background = views_[i].background();
-    if (background.empty()) continue;
+  tbb::parallel_for(std::size_t{0}, views_.size(), [&](std::size_t i) {
+    if (!views_[i].has_learned()) return;
     TileView& tile = plan.header.views[i];
-    tile.background = resamplers[i].resample_background(background, tile.camera, plan.views[i]);
-  }
+    tile.background = resamplers[i].resample_background(views_[i].background(plan.views[i].touched),
+                                                        tile.camera, plan.views[i]);
+  });
 }
 
 }  // namespace hypotrack::internal

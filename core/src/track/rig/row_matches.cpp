@@ -1,5 +1,7 @@
 #include "track/rig/row_matches.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -95,14 +97,17 @@ std::vector<cv::Point> corners(const cv::Mat1b& picture, std::size_t most) {
 
 std::vector<RowMatch> match_rows(const GreyPair& pictures, const Eigen::Vector2d& center,
                                  const MatchRange& range) {
-  const auto& [first, second] = pictures;
   const int disparity = static_cast<int>(range.disparity);
-  std::vector<RowMatch> out;
-  for (const cv::Point& at : corners(first.full, kCorners)) {
+  const std::vector<cv::Point> all = corners(pictures[0].full, kCorners);
+  std::vector<std::optional<Eigen::Vector2d>> matches(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    const cv::Point& at = all[i];
     const cv::Rect row(at.x - disparity, at.y - range.rows, disparity + kFine, 2 * range.rows);
-    const auto match = find(first, at, second, row);
-    if (match) out.push_back({*match - center, match->y() - at.y});
-  }
+    matches[i] = find(pictures[0], at, pictures[1], row);
+  });
+  std::vector<RowMatch> out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (matches[i]) out.push_back({*matches[i] - center, matches[i]->y() - all[i].y});
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include "track/verify/evidence.hpp"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -290,8 +292,14 @@ Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors) 
   const double core_points = cv::countNonZero(core);
   if (core_points < kLeastPoints) return out;
   out.known = true;
-  const Texture surface = texture(inside), beside = texture(ring);
-  const Edges left = edges(samples.views[0]), right = edges(samples.views[1]);
+  Texture surface, beside;
+  Edges left, right;
+  Probability on, off;
+  tbb::parallel_invoke([&] { surface = texture(inside); }, [&] { beside = texture(ring); },
+                       [&] { left = edges(samples.views[0]); },
+                       [&] { right = edges(samples.views[1]); },
+                       [&] { on = probability(samples, colors, &SampledView::inside); },
+                       [&] { off = probability(samples, colors, &SampledView::ring); });
   out.values[Evidence::kCorrelation] = plain_correlation(inside);
   out.values[Evidence::kTexture] = surface.correlation;
   out.values[Evidence::kAgreement] = surface.agreement;
@@ -303,8 +311,6 @@ Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors) 
       (separation(samples.views[0]) + separation(samples.views[1])) / 2;
   out.values[Evidence::kEdges] = std::min(left.share, right.share);
   out.values[Evidence::kEdgeRatio] = std::min(left.ratio, right.ratio);
-  const Probability on = probability(samples, colors, &SampledView::inside);
-  const Probability off = probability(samples, colors, &SampledView::ring);
   out.values[Evidence::kInside] = on.mean;
   out.values[Evidence::kRing] = off.mean;
   out.values[Evidence::kWorstInside] = on.lowest;

@@ -1,5 +1,7 @@
 #include "track/verify/surface_samples.hpp"
 
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -237,10 +239,13 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
                      {}};
   const Lookup second{self.tiles.resamplers()[1].lens(), intrinsics(plan.header.views[1].camera),
                       frame.views[1].color, colors};
-  out.views[0] = self.measure_evidence(first, 0);
-  out.views[1] = self.measure_evidence(second, 1);
-  self.pair(second, plan.header, out);
   const TileCamera& grid = plan.header.views[0].camera;
+  tbb::parallel_invoke(
+      [&] {
+        out.views[0] = self.measure_evidence(first, 0);
+        self.pair(second, plan.header, out);
+      },
+      [&] { out.views[1] = self.measure_evidence(second, 1); });
   out.points = self.points(out.views[0], grid, own);
   const double depth = (grid.camera_from_world * Eigen::Vector3d(own.head<3>())).z();
   out.points_per_metre = grid.fx / depth;
