@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cards.hpp"
 #include "faults.hpp"
 #include "forearm.hpp"
 #include "hypotrack/calibration.hpp"
@@ -151,6 +152,7 @@ struct SyntheticParams {
   JointFileParams joint_file;
   std::optional<RandomParams> random;
   std::vector<FaultParams> faults;
+  std::vector<CardParams> cards;
   ConfigNode render_models;
   ForearmParams forearm;
   BackgroundParams background;
@@ -174,6 +176,7 @@ struct SyntheticParams {
     v("random", random, {.help = "instead of keyframes: a motion that is drawn from a seed"});
     v("faults", faults,
       {.help = "list of {frames: [first, last], kind, model, view}: what is wrong with frames"});
+    v("cards", cards, {.help = "list of flat cards that hide what is behind them"});
     v("render_models", render_models,
       {.help = "map of models of the scene to {type, ...}: what the pictures show in their place"});
     v("forearm", forearm, {.help = "what the pictures show below a hand's wrist"});
