@@ -56,7 +56,7 @@ double sigma_after(double seconds) {
 /// Returns how far a landmark may have moved against the rest of its model since something hides
 /// it, in metres.
 double sigma_behind(double seconds) {
-  constexpr double kAtOnce = 0.005, kPerSecond = 0.2, kMost = 0.08;
+  constexpr double kAtOnce = 0.005, kPerSecond = 0.1, kMost = 0.08;
   return std::min(kAtOnce + kPerSecond * std::max(seconds, 0.0), kMost);
 }
 
@@ -579,7 +579,7 @@ void SceneTracker::doubt_hidden(const Frame& frame, const Candidate& best, Solut
     double sum = 0;
     for (Eigen::Index i = model.first_landmark; i < model.first_landmark + model.landmarks; ++i) {
       if (solution.hidden.empty() || !solution.hidden[static_cast<std::size_t>(i)]) {
-        seen_[i] = frame.time;
+        if (model.status == Status::tracked) seen_[i] = frame.time;
         continue;
       }
       const double sigma = sigma_behind(frame.time - seen_[i]);

@@ -197,7 +197,7 @@ class SceneTracker {
   Eigen::VectorXd kept_;      ///< each model's last pose that was surely right
   Eigen::VectorXd together_;  ///< the last state in which all models were surely right at once
   Eigen::VectorXd state_;     ///< start of the next search
-  Eigen::VectorXd seen_;      ///< time, by landmark, at which it was last not hidden
+  Eigen::VectorXd seen_;      ///< time, by landmark, at which it was tracked and not hidden
   double time_ = 0;           ///< time of `state_`
   Eigen::VectorXd output_;    ///< last state returned
   int begun_ = 0;             ///< frames searched before anything was found
