@@ -37,6 +37,9 @@ struct Solution {
   /// Root mean square error expected of each landmark, in metres. Empty if uncertainty is off, NaN
   /// if the frame was missing.
   Eigen::VectorXd sigma;
+  /// Flags landmarks that something before the models hides in both views, by Scene::landmarks():
+  /// their positions are guesses. Empty if it hides none.
+  std::vector<bool> hidden = {};
   /// Probability, by model, that its pose is right, judged by the pictures; NaN: unknown.
   std::vector<double> probabilities = {};
   FrameFault fault = FrameFault::none;  ///< what is wrong with the frame's pictures or time

@@ -23,6 +23,15 @@ Json landmarks(const Model& model, const Eigen::Ref<const Eigen::Matrix3Xd>& poi
   return json;
 }
 
+/// Returns the names of a model's hidden landmarks; its first one is the scene's number `first`.
+Json hidden(const Model& model, const std::vector<bool>& flags, Eigen::Index first) {
+  Json json = Json::array();
+  auto flag = flags.begin() + first;
+  for (const Landmark& landmark : model.data().landmarks)
+    if (*flag++) json.push_back(landmark.name);
+  return json;
+}
+
 }  // namespace
 
 std::string solution_json(const Scene& scene, const Solution& solution,
@@ -45,6 +54,7 @@ std::string solution_json(const Scene& scene, const Solution& solution,
         m < solution.probabilities.size() ? Json(solution.probabilities[m]) : Json();
     model["parameters"] = parameters(*item.model, scene.part(item, solution.state));
     model["landmarks"] = landmarks(*item.model, points.middleCols(first, count));
+    if (!solution.hidden.empty()) model["hidden"] = hidden(*item.model, solution.hidden, first);
     first += count;
   }
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

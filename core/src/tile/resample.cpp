@@ -131,6 +131,7 @@ TileView Resampler::resample(const View& view, const TileCamera& tile,
   TileView out;
   out.camera = tile;
   out.valid = inside_mask(map, size, image_);
+  if (!plan.hidden.empty()) out.valid.setTo(0, plan.hidden);
   if (!view.depth.empty()) out.depth = nearest_depth(view.depth, out.valid, map, tile, lens_);
   if (view.color.empty() && view.mask.empty()) return out;
   const auto at = lookups(map, size, plan);

@@ -30,6 +30,9 @@ struct ResamplePlan {
   /// Brightness to add to every channel after `colors`, 0 .. 255 (32-bit float, tile size). Empty
   /// from plan_resampling(): adds nothing. Only Resampler::resample() applies it.
   cv::Mat brightness;
+  /// Pixels that count as outside the image (8-bit, tile size), because something hides what is
+  /// tracked there. Empty from plan_resampling(): none. Only Resampler::resample() applies it.
+  cv::Mat hidden;
 };
 
 /// Makes the lens map of a camera; `camera_from_ideal` is a rotation.

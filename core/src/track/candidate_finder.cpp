@@ -45,6 +45,7 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
       budget_(parts.budget),
       search_(scene, parts),
       verifier_(scene, parts.cameras),
+      occlusion_(scene, parts.cameras),
       recovery_(scene, parts.cameras, parts.status.recovery),
       believed_(scene.items().size(), std::numeric_limits<double>::quiet_NaN()) {
   if (budget_.evaluations == 0) budget_.evaluations = search_.default_evaluations();
@@ -117,7 +118,40 @@ bool CandidateFinder::begin_again(const Frame& frame, const Eigen::VectorXd& sta
 Candidate CandidateFinder::follow(const Frame& frame, const Eigen::MatrixXd& starts,
                                   const ModelFlags& models, const Budget& budget,
                                   const std::optional<Reach>& reach, std::uint64_t seed) {
+  constexpr double kLess = 0.15, kNewest = 0.3;
   search_.show(models);
+  const bool was_hidden = occlusion_.is_awaited();
+  if (was_hidden) look_for_occluders(frame, search_.drawn(starts.col(0)), models);
+  Candidate out = searched(frame, starts, budget, reach, seed);
+  const double probability = out.probability();
+  const bool is_worse = probability < usual_probability_ - kLess;
+  if (!std::isnan(probability)) usual_probability_ += kNewest * (probability - usual_probability_);
+  if (was_hidden || !is_worse) return out;
+  if (!look_for_occluders(frame, search_.drawn(starts.col(0)), models)) return out;
+  Candidate again = searched(frame, starts, budget, reach, seed);
+  again.found.evaluations += out.found.evaluations;
+  return again;
+}
+
+bool CandidateFinder::look_for_occluders(const Frame& frame, const Eigen::VectorXd& state,
+                                         const ModelFlags& models) {
+  const bool was_hidden = occlusion_.hidden() != nullptr;
+  occlusion_.look(frame, state, search_.second_view_colors(), verifier_, models);
+  search_.hide(occlusion_.hidden());
+  verifier_.hide(occlusion_.hidden());
+  return was_hidden || occlusion_.hidden();
+}
+
+std::vector<bool> CandidateFinder::hidden(const Eigen::VectorXd& state) const {
+  if (!occlusion_.hidden()) return {};
+  std::vector<bool> out = occlusion_.hidden()->covers(scene_.landmarks(state));
+  if (!any(out)) out.clear();
+  return out;
+}
+
+Candidate CandidateFinder::searched(const Frame& frame, const Eigen::MatrixXd& starts,
+                                    const Budget& budget, const std::optional<Reach>& reach,
+                                    std::uint64_t seed) {
   search_.look(frame, starts.col(0), false);
   const Eigen::VectorXd prior = search_.cheapest(starts);
   Budget left = budget;
@@ -338,6 +372,8 @@ void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request
                               std::uint64_t seed) {
   contradicted_ = false;
   sightings_.clear();
+  if (occlusion_.is_awaited() && !occlusion_.has_looked_at(frame))
+    look_for_occluders(frame, request.kept, ModelFlags(scene_.items().size(), true));
   if (scene_.items().size() > 1 && !request.near_only)
     for (std::size_t m = 0; m < scene_.items().size(); ++m)
       sightings_.push_back(sighting(starts_, scene_, cameras_, frame, m));
@@ -394,7 +430,7 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)
     if (verifier_.experienced(m) && best.probabilities[m] < settings_.surely_above) sure[m] = false;
-  if (any(sure)) learn(frame, best, sure);
+  if (any(sure) && !occlusion_.hidden()) learn(frame, best, sure);
 }
 
 void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {

@@ -12,6 +12,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/frame_search.hpp"
+#include "track/occlude/occlusion.hpp"
 #include "track/recover/recovery.hpp"
 #include "track/sighting.hpp"
 #include "track/status.hpp"
@@ -120,6 +121,9 @@ class CandidateFinder {
                                   const Eigen::VectorXd& state) const;
   /// Returns whether all detectors of the last recovery saw a sought model elsewhere.
   bool contradicted() const { return contradicted_; }
+  /// Returns which landmarks of a state something hides in both views, in the frame searched last;
+  /// empty: none.
+  std::vector<bool> hidden(const Eigen::VectorXd& state) const;
   /// Forgets the looks of a model, for its poses were wrong.
   void forget(std::size_t model) { verifier_.forget(model); }
 
@@ -136,6 +140,13 @@ class CandidateFinder {
   /// Searches a frame repeatedly from a state that may be some centimetres off.
   Candidate searched_from(const Frame& frame, const Eigen::VectorXd& state, std::uint64_t seed);
   Candidate verified(const Frame& frame, Found found);
+  /// Looks for what hides the flagged models about where a state has them. Returns whether anything
+  /// does, or did before.
+  bool look_for_occluders(const Frame& frame, const Eigen::VectorXd& state,
+                          const ModelFlags& models);
+  /// Searches a frame from the cheapest of several starts.
+  Candidate searched(const Frame& frame, const Eigen::MatrixXd& starts, const Budget& budget,
+                     const std::optional<Reach>& reach, std::uint64_t seed);
   /// Returns the most probable candidate; among about equally probable ones the cheapest. All must
   /// show the same models. Prepares the search for the frame around the result.
   Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates,
@@ -179,6 +190,8 @@ class CandidateFinder {
   Budget budget_;
   FrameSearch search_;
   PoseVerifier verifier_;
+  Occlusion occlusion_;
+  double usual_probability_ = 0;  ///< of frames searched lately
   Recovery recovery_;
   std::vector<double> believed_;  ///< probability of each model in the last candidate accepted
   double believed_time_ = 0;      ///< time of that candidate

@@ -76,12 +76,19 @@ void FrameSearch::add_previous(const Frame& frame, TilePlan& plan) const {
   context.seconds_since_previous = frame.time - previous_->time;
 }
 
+void FrameSearch::add_hidden(TilePlan& plan) const {
+  if (!hidden_) return;
+  for (std::size_t i = 0; i < plan.views.size(); ++i)
+    plan.views[i].hidden = hidden_->in_tile(i, plan.header.views[i].camera);
+}
+
 void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess) {
   plan_ = tiles_.plan(frame, start);
   const Eigen::VectorXd posed = drawn(start);
   if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, posed);
   photometric_.apply(plan_);
   photometric_.apply_highlights(plan_, posed);
+  add_hidden(plan_);
   // Put hidden models where a shown one is, so that the tile's depths are those of shown models.
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
@@ -94,6 +101,7 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
 
 void FrameSearch::take_in(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
   photometric_.apply(plan);
+  add_hidden(plan);
   add_previous(frame, plan);
   context_ = plan.header.context;
   if (background_) background_->add_to(plan, tiles.resamplers());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -16,6 +17,7 @@
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
 #include "track/color/still_background.hpp"
+#include "track/occlude/hidden_views.hpp"
 #include "track/search_space.hpp"
 #include "track/search_trace.hpp"
 #include "track/tracker_parts.hpp"
@@ -51,6 +53,9 @@ class FrameSearch {
 
   /// Remembers the answer of a frame for later ones. Null: the models are forgotten.
   void remember(std::shared_ptr<PreviousSolution> answer, const Frame* frame = nullptr);
+
+  /// Sets what hides the models in the frames looked at from now on; null: nothing.
+  void hide(std::shared_ptr<const HiddenViews> hidden) { hidden_ = std::move(hidden); }
 
   /// Prepares a frame for searches from `start`. `is_guess` sets FrameContext::start_is_guess.
   void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
@@ -114,6 +119,8 @@ class FrameSearch {
                            std::uint64_t seed);
   /// Writes the previous answer into a plan, unless it must not assume a motion.
   void add_previous(const Frame& frame, TilePlan& plan) const;
+  /// Writes what hides the models into a plan.
+  void add_hidden(TilePlan& plan) const;
   Eigen::Vector3d some_position(const Eigen::VectorXd& state) const;
 
   const Scene& scene_;
@@ -130,6 +137,7 @@ class FrameSearch {
   SearchClock clock_;
   bool keeps_tiles_;                                  ///< a term reads tiles of `previous_`
   std::shared_ptr<const PreviousSolution> previous_;  ///< null: none
+  std::shared_ptr<const HiddenViews> hidden_;         ///< null: nothing
   FrameContext context_;                              ///< of the prepared frame
   TilePlan plan_;                                     ///< of the last frame
   std::vector<RecordedSearch>* record_ = nullptr;     ///< receives searches; null: nothing does

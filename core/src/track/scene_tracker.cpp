@@ -65,6 +65,13 @@ GlobalSearchSettings nearby_effort(const RecoverySettings& recovery) {
       .hypotheses = share(recovery.hypotheses), .refined = share(recovery.refined), .searched = 1};
 }
 
+/// Returns how far a landmark may have moved against the rest of its model since something hides
+/// it, in metres.
+double sigma_behind(double seconds) {
+  constexpr double kAtOnce = 0.005, kPerSecond = 0.1, kMost = 0.08;
+  return std::min(kAtOnce + kPerSecond * std::max(seconds, 0.0), kMost);
+}
+
 /// Returns the status of a frame from those of its models.
 Status worst(const std::vector<Status>& models) {
   if (std::ranges::all_of(models, [](Status s) { return s == Status::absent; }))
@@ -513,10 +520,11 @@ void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution&
   const ModelFlags followed_before = followed();
   judge_models(frame, best, solution);
   ModelFlags tracked, good;
-  for (const Status status : solution.models) {
-    tracked.push_back(status == Status::tracked);
-    good.push_back(tracked.back() || status == Status::uncertain);
+  for (const ModelTrack& model : models_) {
+    tracked.push_back(model.status == Status::tracked);
+    good.push_back(tracked.back() || model.status == Status::uncertain);
   }
+  doubt_hidden(frame, best, solution);
   const bool any_good = any(good);
   // Without recovery, tracking continues from any pose in view, as in the paper. With it, this
   // holds for models that were never surely found.
@@ -572,6 +580,29 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
     const Status status = models_[m].status = models_[m].monitor.judge(own);
     given_.conclude(frame.index, m, best.found.state, status == Status::tracked);
     solution.models[m] = status;
+  }
+  solution.status = worst(solution.models);
+}
+
+void SceneTracker::doubt_hidden(const Frame& frame, const Candidate& best, Solution& solution) {
+  if (seen_.size() == 0) seen_.setConstant(std::ssize(scene_.landmark_names()), frame.time);
+  if (best.answers()) solution.hidden = finder_.hidden(best.found.state);
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    const ModelTrack& model = models_[m];
+    double sum = 0;
+    for (Eigen::Index i = model.first_landmark; i < model.first_landmark + model.landmarks; ++i) {
+      if (solution.hidden.empty() || !solution.hidden[static_cast<std::size_t>(i)]) {
+        if (model.status == Status::tracked) seen_[i] = frame.time;
+        continue;
+      }
+      const double sigma = sigma_behind(frame.time - seen_[i]);
+      sum += sigma;
+      if (solution.sigma.size() > 0) solution.sigma[i] = std::max(solution.sigma[i], sigma);
+    }
+    // The search goes on from it: the part that pictures show is right.
+    if (model.status == Status::tracked &&
+        sum > settings_.uncertain_sigma * static_cast<double>(model.landmarks))
+      solution.models[m] = Status::uncertain;
   }
   solution.status = worst(solution.models);
 }

@@ -142,6 +142,9 @@ class SceneTracker {
   void doubt_contradicted(const ModelFlags& checked, Candidate& best);
   RecoveryRequest recovery_request(const Frame& frame, const Candidate& best);
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
+  /// Flags landmarks that something hides. Calls models uncertain whose hidden landmarks may have
+  /// moved far.
+  void doubt_hidden(const Frame& frame, const Candidate& best, Solution& solution);
   void judge_models(const Frame& frame, const Candidate& best, Solution& solution);
   // Recovery in the background. While a job runs, nothing else uses the finder.
   void start_job(const Frame& frame, const RecoveryRequest& request, const Candidate& best);
@@ -194,6 +197,7 @@ class SceneTracker {
   Eigen::VectorXd kept_;      ///< each model's last pose that was surely right
   Eigen::VectorXd together_;  ///< the last state in which all models were surely right at once
   Eigen::VectorXd state_;     ///< start of the next search
+  Eigen::VectorXd seen_;      ///< time, by landmark, at which it was tracked and not hidden
   double time_ = 0;           ///< time of `state_`
   Eigen::VectorXd output_;    ///< last state returned
   int begun_ = 0;             ///< frames searched before anything was found

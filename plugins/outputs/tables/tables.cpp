@@ -17,13 +17,21 @@ std::string track_header(const Scene& scene, const std::vector<std::string>& oth
     for (const Scene::Item& item : scene.items())
       line += fmt::format(",{0}.status,{0}.probability", item.name);
   for (const Parameter& p : scene.parameters()) line += "," + p.name;
-  line += ",stamp,fault";
+  line += ",hidden,stamp,fault";
   for (const std::string& name : others) line += "," + name;
   return line + "\n";
 }
 
+/// Returns the names of hidden landmarks, separated by spaces.
+std::string hidden_names(const Scene& scene, const Solution& solution) {
+  std::string names;
+  for (std::size_t i = 0; i < solution.hidden.size(); ++i)
+    if (solution.hidden[i]) names += (names.empty() ? "" : " ") + scene.landmark_names()[i];
+  return names;
+}
+
 /// Returns a line of track.csv with values of other outputs.
-std::string track_line(const Frame& frame, const Solution& solution,
+std::string track_line(const Scene& scene, const Frame& frame, const Solution& solution,
                        const std::vector<double>& others) {
   std::string line = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                  to_string(solution.status), solution.cost, solution.evaluations,
@@ -33,7 +41,7 @@ std::string track_line(const Frame& frame, const Solution& solution,
     line += fmt::format(",{:.3f}", solution.probabilities[m]);
   }
   for (const double value : solution.state) line += fmt::format(",{}", value);
-  line += ',';
+  line += ',' + hidden_names(scene, solution) + ',';
   if (frame.stamp) line += stamp_text(*frame.stamp);
   line += ',';
   if (solution.fault != FrameFault::none) line += to_string(solution.fault);
@@ -51,7 +59,7 @@ class Pair {
     landmarks_.write(landmarks_header(scene_->landmark_names()));
   }
   void add(const Frame& frame, const Solution& solution, const std::vector<double>& others) {
-    solutions_.write(track_line(frame, solution, others));
+    solutions_.write(track_line(*scene_, frame, solution, others));
     landmarks_.write(
         table_line(solution.frame, solution.time, scene_->landmarks(solution.state).reshaped()));
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cards.hpp"
 #include "faults.hpp"
 #include "forearm.hpp"
 #include "hypotrack/calibration.hpp"
@@ -149,6 +150,7 @@ struct SyntheticParams {
   JointFileParams joint_file;
   std::optional<RandomParams> random;
   std::vector<FaultParams> faults;
+  std::vector<CardParams> cards;
   ConfigNode render_models;
   ForearmParams forearm;
   BackgroundParams background;
@@ -172,6 +174,7 @@ struct SyntheticParams {
     v("random", random, {.help = "instead of keyframes: a motion that is drawn from a seed"});
     v("faults", faults,
       {.help = "list of {frames: [first, last], kind, model, view}: faults of frames"});
+    v("cards", cards, {.help = "list of flat cards that hide the scene behind them"});
     v("render_models", render_models,
       {.help = "map of models of the scene to {type, ...}, the models that pictures show instead"});
     v("forearm", forearm, {.help = "arm below a hand's wrist in the pictures"});

@@ -59,9 +59,10 @@ std::vector<std::string> parameter_names(const Model& model) {
 }  // namespace
 
 Stage::Stage(const Scene& tracked, const ConfigNode& render_models, const ForearmParams& forearm,
-             PluginContext& context)
+             std::vector<Card> cards, PluginContext& context)
     : models_(tracked.items().size()),
-      others_(render_models.defined() && render_models.size() > 0) {
+      others_(render_models.defined() && render_models.size() > 0),
+      cards_(std::move(cards)) {
   if (render_models.defined() && !render_models.is_map()) {
     throw ConfigError(render_models.where() + ": expected a map of names of models to {type, ...}");
   }
@@ -81,6 +82,9 @@ Stage::Stage(const Scene& tracked, const ConfigNode& render_models, const Forear
                         "{kind: none}`");
     }
   }
+  for (const Card& card : cards_)
+    models.emplace_back(fmt::format("card_{}", models.size()),
+                        std::make_shared<Model>(card.data()));
   scene_ = std::make_unique<Scene>(std::move(models));
   for (std::size_t i = 0; i < forearms_.size(); ++i) {
     forearms_[i].offset = scene_->items()[models_ + i].offset;
@@ -129,7 +133,7 @@ Eigen::Vector3d Stage::skin() const {
   return 255 * Mesh().color.cast<double>();
 }
 
-Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked) const {
+Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked, double time) const {
   Eigen::VectorXd state(scene_->dimension());
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     state[static_cast<Eigen::Index>(i)] = tracked[parameters_[i]];
@@ -141,13 +145,18 @@ Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked) const {
     const Eigen::Quaterniond q(pose.linear());
     state.segment<7>(forearm.offset) << pose.translation(), q.w(), q.x(), q.y(), q.z();
   }
+  const std::size_t first = models_ + forearms_.size();
+  for (std::size_t i = 0; i < cards_.size(); ++i)
+    state.segment<7>(scene_->items()[first + i].offset) << cards_[i].middle(time), 1, 0, 0, 0;
   return state;
 }
 
-std::vector<bool> Stage::hidden(const std::vector<bool>& absent) const {
+std::vector<bool> Stage::hidden(const std::vector<bool>& absent, int frame) const {
+  if (absent.empty() && cards_.empty()) return {};
   std::vector<bool> hidden = absent;
-  if (!absent.empty())
-    for (const Forearm& forearm : forearms_) hidden.push_back(absent[forearm.hand]);
+  hidden.resize(models_, false);
+  for (const Forearm& forearm : forearms_) hidden.push_back(hidden[forearm.hand]);
+  for (const Card& card : cards_) hidden.push_back(!card.is_shown(frame));
   return hidden;
 }
 
@@ -169,7 +178,7 @@ Eigen::Matrix3Xd Stage::landmarks(const Eigen::VectorXd& state,
 
 cv::Mat Stage::mask(const cv::Mat& label) const {
   cv::Mat mask = label > 0;
-  if (!forearms_.empty()) mask.setTo(0, label > static_cast<double>(models_));
+  if (!forearms_.empty() || !cards_.empty()) mask.setTo(0, label > static_cast<double>(models_));
   return mask;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "background.hpp"
+#include "cards.hpp"
 #include "depth_sensor.hpp"
 #include "faults.hpp"
 #include "hypotrack/plugin.hpp"
@@ -122,7 +123,8 @@ class Synthetic final : public Source {
         depth_sensor_(params.sensor),
         depth_(params.depth),
         exposure_(checked_exposure(params, context.config())),
-        stage_(scene_, params.render_models, params.forearm, context),
+        stage_(scene_, params.render_models, params.forearm,
+               make_cards(params.cards, context.config().get("cards"), frame_rate_), context),
         backgrounds_(draw_backgrounds(params.background, cameras_, style_, stage_.skin(),
                                       context.config().where())),
         renderer_(stage_.scene()) {
@@ -150,9 +152,9 @@ class Synthetic final : public Source {
     frame.truth.emplace();
     frame.truth->state = script_.state(frame.time);
     frame.truth->absent = faults_.absent(number);
-    const Eigen::VectorXd state = stage_.state(frame.truth->state);
+    const Eigen::VectorXd state = stage_.state(frame.truth->state, frame.time);
     frame.truth->landmarks = stage_.landmarks(state, frame.truth->absent);
-    style_.hidden = stage_.hidden(frame.truth->absent);
+    style_.hidden = stage_.hidden(frame.truth->absent, number);
     const std::vector<Eigen::VectorXd> others = other_states(frame.time, state);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       RenderedView rendered = renderer_.render(state, cameras_[i], style_, backgrounds_[i].color);
@@ -178,7 +180,7 @@ class Synthetic final : public Source {
     constexpr int kMost = 8;       // pictures before `time`, and as many after it
     std::vector<Eigen::VectorXd> states;
     const Motion& motion = script_.motion_at(time);
-    const auto state_at = [&](double t) { return stage_.state(motion.state(t)); };
+    const auto state_at = [&](double t) { return stage_.state(motion.state(t), t); };
     const Eigen::VectorXd first = state_at(time - 0.5 * exposure_);
     const Eigen::VectorXd last = state_at(time + 0.5 * exposure_);
     const double moved = std::max(pixels_between(first, state), pixels_between(state, last));

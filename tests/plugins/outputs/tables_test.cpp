@@ -35,5 +35,17 @@ TEST_F(Tables, LeaveTheStampEmptyWhereARecordingHasNone) {
   EXPECT_EQ(read_states(run_.file("track.csv"), scene_).size(), 2u);
 }
 
+TEST_F(Tables, NameHiddenLandmarks) {
+  std::vector<Solution> solutions = solutions_;
+  solutions[1].hidden.assign(scene_.landmark_names().size(), false);
+  solutions[1].hidden[0] = solutions[1].hidden[1] = true;
+  run_.play("type: tables", solutions);
+  const std::string names = scene_.landmark_names()[0] + " " + scene_.landmark_names()[1];
+  EXPECT_THAT(run_.lines("track.csv"),
+              ::testing::ElementsAre(EndsWith(",hidden,stamp,fault"), EndsWith(",,,"),
+                                     EndsWith("," + names + ",,")));
+  EXPECT_EQ(read_states(run_.file("track.csv"), scene_).size(), 2u);
+}
+
 }  // namespace
 }  // namespace hypotrack

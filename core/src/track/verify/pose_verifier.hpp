@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -42,6 +44,9 @@ class ModelVerifier {
   /// Returns the log odds that the model's landmarks are about where they were found (weights.hpp).
   /// -infinity without evidence.
   double log_odds(const Evidence& evidence) const;
+
+  /// Sets what hides the model in the frames measured from now on; null: nothing.
+  void hide(std::shared_ptr<const HiddenViews> hidden) { sampler_.hide(std::move(hidden)); }
 
   /// Sets whether the model was tracked in the last frame. Its likeness then counts half, because a
   /// hand that turns or closes shows sides that were not seen before.
@@ -84,6 +89,13 @@ class PoseVerifier {
   /// state. The others get NaN, and so do all in frames without colours in two views.
   ModelProbabilities verify(const Frame& frame, const Eigen::VectorXd& state,
                             const ColorMap& colors, const std::vector<bool>& models);
+
+  /// Sets what hides models in the frames verified from now on; null: nothing.
+  void hide(const std::shared_ptr<const HiddenViews>& hidden) {
+    for (ModelVerifier& model : models_) model.hide(hidden);
+  }
+  /// Returns the colours of a model.
+  const ForegroundColors& colors(std::size_t model) const { return models_.at(model).colors(); }
 
   /// Sets whether a model was tracked in the last frame (ModelVerifier::set_tracked()).
   void set_tracked(std::size_t model, bool tracked) {

@@ -131,6 +131,8 @@ struct SurfaceSampler::Impl {
   std::unique_ptr<HypothesisDrawer> whole_drawer;
   FrameProjection projection;
   std::array<cv::Mat1f, 2> own, all;  // drawn 1/z
+  std::shared_ptr<const HiddenViews> hidden;
+  std::array<cv::Mat1b, 2> behind;  // hidden pixels; empty: none
 };
 
 SurfaceSampler::SurfaceSampler(const Scene& scene, std::size_t model,
@@ -138,6 +140,10 @@ SurfaceSampler::SurfaceSampler(const Scene& scene, std::size_t model,
     : impl_(std::make_unique<Impl>(scene, model, cameras)) {}
 SurfaceSampler::~SurfaceSampler() = default;
 SurfaceSampler::SurfaceSampler(SurfaceSampler&&) noexcept = default;
+
+void SurfaceSampler::hide(std::shared_ptr<const HiddenViews> hidden) {
+  impl_->hidden = std::move(hidden);
+}
 
 const SurfacePoints& SurfaceSampler::points() const { return impl_->surface; }
 
@@ -173,12 +179,18 @@ SampledView SurfaceSampler::Impl::measure_evidence(const Lookup& lookup, std::si
       if (!seen) out.inside(y, x) = 0;
       if (!seen || nearest(y, x) > 0) out.ring(y, x) = 0;
     }
+  if (behind[view].empty()) return out;
+  out.inside.setTo(0, behind[view]);
+  out.ring.setTo(0, behind[view]);
   return out;
 }
 
 void SurfaceSampler::Impl::pair(const Lookup& other, const Observation& header,
                                 SurfaceSamples& out) const {
   const StereoMap map = stereo_map(header, 0, 1);
+  const auto grid_point = [&](float at) {
+    return std::clamp(static_cast<int>(pixel::round(at)), 0, grid_size - 1);
+  };
   const SampledView& first = out.views[0];
   cv::Mat1f depth = own[0].clone();
   extend(depth, first.inside, first.ring);
@@ -192,9 +204,9 @@ void SurfaceSampler::Impl::pair(const Lookup& other, const Observation& header,
       const scalar::Mapped<float> at = map.rectified ? scalar::map_pixel<true>(map, fx, fy, w)
                                                      : scalar::map_pixel<false>(map, fx, fy, w);
       if (!scalar::lands_inside<false>(map, at)) continue;
+      if (!behind[1].empty() && behind[1](grid_point(at.v), grid_point(at.u))) continue;
       if (first.inside(y, x)) {
-        const int column = std::clamp(static_cast<int>(pixel::round(at.u)), 0, grid_size - 1);
-        const int row = std::clamp(static_cast<int>(pixel::round(at.v)), 0, grid_size - 1);
+        const int column = grid_point(at.u), row = grid_point(at.v);
         if (!scalar::same_depth(at.inverse_depth, all[1](row, column), 2 * kSameSurface)) continue;
       }
       if (other(at.u, at.v, out.other(y, x))) out.paired(y, x) = 255;
@@ -233,6 +245,9 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
   if (out.visible == 0) return out;
   const TilePlan plan = self.tiles.plan(frame, own);
   self.draw(plan.header, state, own);
+  for (std::size_t i = 0; i < 2; ++i)
+    self.behind[i] =
+        self.hidden ? self.hidden->in_tile(i, plan.header.views[i].camera) : cv::Mat1b();
   const Lookup first{self.tiles.resamplers()[0].lens(),
                      intrinsics(plan.header.views[0].camera),
                      frame.views[0].color,

@@ -10,6 +10,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
+#include "track/occlude/hidden_views.hpp"
 #include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
@@ -38,7 +39,7 @@ struct SurfaceSamples {
   std::vector<Point> points;
   double points_per_metre = 0;  ///< of the grid, at the model's depth
   double visible = 0;           ///< share of the model's vertices inside both pictures
-  double covered = 0;           ///< share of its drawn points that other models hide
+  double covered = 0;           ///< share of its drawn points that other models or else hide
 
   bool empty() const { return other.empty(); }
 };
@@ -59,6 +60,9 @@ class SurfaceSampler {
   /// colours to the first's. The result is empty if a view has no colour or a camera does not see
   /// the model.
   SurfaceSamples sample(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+
+  /// Sets what hides models in the frames sampled from now on; null: nothing.
+  void hide(std::shared_ptr<const HiddenViews> hidden);
 
   /// Returns the points of the surface that samples show.
   const SurfacePoints& points() const;

@@ -82,6 +82,41 @@ TEST(Forearm, IsASurfaceToADepthCamera) {
   EXPECT_LT(frame.views[0].depth.at<float>(pixel), 0.40F);
 }
 
+const std::string kCard =
+    "cards: [{frames: [1, 3], at_mm: [0, -60, 300], by_mm: [0, 40, 0], size_mm: [100, 40], "
+    "color: [10, 200, 30]}]\nframes: 5\ndepth: true\n";
+
+TEST(Card, HidesWhatIsBehindItInItsFramesOnly) {
+  const std::vector<Frame> without = load(kFlat + kUpright + "frames: 5\n").frames();
+  Loaded loaded(kFlat + kUpright + kCard);
+  const std::vector<Frame> with = loaded.frames();
+  const Camera& camera = loaded.source->cameras()[0];
+  for (const std::size_t i : {0u, 4u})
+    EXPECT_TRUE(same(with[i].views[0].color, without[i].views[0].color)) << i;
+  for (const std::size_t i : {1u, 3u}) {
+    const Eigen::Vector2d p = project(camera, Eigen::Vector3d(0, i == 1 ? -0.06 : -0.02, 0.3));
+    const cv::Point at(cvRound(p.x()), cvRound(p.y()));
+    const View& view = with[i].views[0];
+    EXPECT_EQ(view.color.at<cv::Vec3b>(at), cv::Vec3b(30, 200, 10)) << i;
+    EXPECT_EQ(view.mask.at<unsigned char>(at), 0) << i;
+    EXPECT_NEAR(view.depth.at<float>(at), 0.3F, 0.002F) << i;
+    EXPECT_LT(cv::countNonZero(view.mask), cv::countNonZero(without[i].views[0].mask)) << i;
+    EXPECT_EQ(with[i].truth->state, without[i].truth->state) << i;
+  }
+}
+
+TEST(Card, SaysWhatIsWrongWithIt) {
+  const std::string motion = kPlain + kUpright;
+  EXPECT_THAT(message_of(motion + "cards: [{frames: [3, 1], at_mm: [0, 0, 300]}]\n"),
+              HasSubstr("frames are 3 to 1; expected the numbers of the first and the last frame"));
+  EXPECT_THAT(message_of(motion + "cards: [{frames: [0, 1]}]\n"), HasSubstr("at_mm"));
+  EXPECT_THAT(
+      message_of(motion + "cards: [{frames: [0, 1], at_mm: [0, 0, 300], pattern: 1, file: x}]\n"),
+      HasSubstr("a card has a `pattern` or a `file`, not both"));
+  EXPECT_THAT(message_of(motion + "cards: [{frames: [0, 1], at_mm: [0, 0, 300], file: x.png}]\n"),
+              HasSubstr("is no readable image; a card needs a PNG or JPEG file"));
+}
+
 TEST(RenderModels, ShowAnotherModelAndMakeItTheTruth) {
   const std::string larger = "render_models: {box: {type: rigid_box, size_mm: [120, 80, 240]}}\n";
   Loaded own(kFlat + kMotion), other(kFlat + kMotion + larger);
