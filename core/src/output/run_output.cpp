@@ -72,10 +72,9 @@ class ResultNames {
 /// Returns the names of the columns that each output adds to track.csv. Throws ConfigError if two
 /// have the same name, PluginError if the table has it already or it is no name.
 std::vector<std::vector<std::string>> own_columns(const std::vector<NamedOutput>& outputs) {
-  constexpr std::array<std::string_view, 10> kTaken = {"frame",       "time",        "status",
-                                                      "cost",        "evaluations", "milliseconds",
-                                                      "probability", "stamp",       "fault",
-                                                       "hidden"};
+  constexpr std::array<std::string_view, 10> kTaken = {
+      "frame",        "time",        "status", "cost",  "evaluations",
+      "milliseconds", "probability", "stamp",  "fault", "hidden"};
   std::map<std::string, std::string> owners;
   std::vector<std::vector<std::string>> all;
   for (const auto& [owner, output] : outputs) {

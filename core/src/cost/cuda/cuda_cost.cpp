@@ -89,9 +89,9 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   }
   void prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
     frame_.finish();
-    const bool host_only = std::ranges::any_of(
-        plan.views,
-        [](const ResamplePlan& view) { return !view.brightness.empty() || !view.hidden.empty(); });
+    const bool host_only = std::ranges::any_of(plan.views, [](const ResamplePlan& view) {
+      return !view.brightness.empty() || !view.hidden.empty();
+    });
     if (host_only) return Cost::prepare_images(tiles, frame, plan);
     if (!resampler_) {
       resampler_ = std::make_unique<TileResampler>(tiles.resamplers(), frame_.device().limits());
