@@ -119,12 +119,13 @@ Candidate CandidateFinder::follow(const Frame& frame, const Eigen::MatrixXd& sta
                                   const ModelFlags& models, const Budget& budget,
                                   const std::optional<Reach>& reach, std::uint64_t seed) {
   constexpr double kLess = 0.15, kNewest = 0.3;
+  constexpr double kLikely = 0.6;  // no pose becomes hidden that was not right before
   search_.show(models);
   const bool was_hidden = occlusion_.is_awaited();
   if (was_hidden) look_for_occluders(frame, search_.drawn(starts.col(0)), models);
   Candidate out = searched(frame, starts, budget, reach, seed);
   const double probability = out.probability();
-  const bool is_worse = probability < usual_probability_ - kLess;
+  const bool is_worse = usual_probability_ >= kLikely && probability < usual_probability_ - kLess;
   if (!std::isnan(probability)) usual_probability_ += kNewest * (probability - usual_probability_);
   if (was_hidden || !is_worse) return out;
   if (!look_for_occluders(frame, search_.drawn(starts.col(0)), models)) return out;

@@ -571,11 +571,13 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
     if (solution.sigma.size() > 0 && models_[m].landmarks > 0)
       own.sigma = models_[m].part_of(solution.sigma).mean();
     own.recognized = best.is_recognized(m);
-    const bool is_denied = own.probability < settings_.uncertain_above && !own.recognized;
-    const bool is_found = best.answers() && best.shown[m] && !is_denied;
+    // What has left the pictures takes more evidence to be back.
+    const bool is_back = own.probability >= settings_.confirmed_above || own.recognized;
+    const bool is_found = best.answers() && best.shown[m] && is_back;
     const bool is_gone = recovers() && !is_found && departure_.is_gone(m, frame.time);
     own.in_view = best.in_view[m] && !is_gone;
-    own.confirmed = best.confirmed[m];
+    // A detector that sees the model there confirms it as another search does.
+    own.confirmed = best.confirmed[m] || best.unseen[m] <= 0;
     if (best.unseen[m] <= 0) models_[m].seen_time = frame.time;
     const Status status = models_[m].status = models_[m].monitor.judge(own);
     given_.conclude(frame.index, m, best.found.state, status == Status::tracked);
