@@ -13,7 +13,6 @@
 
 #include "patch_compare-inl.hpp"
 #include "plane_warp-inl.hpp"
-#include "rectified_volume-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_patch::HWY_NAMESPACE {
@@ -88,35 +87,20 @@ void fill_band(const VolumeJob& job, const Settings& settings, Band band, Compar
   }
 }
 
-/// Calls `fill` with a band of rows per thread.
-template <class Fill>
-void for_each_band(const Volume& volume, const Fill& fill) {
-  const int bands = std::clamp(tbb::this_task_arena::max_concurrency(), 1, volume.height);
-  tbb::parallel_for(0, bands, [&](int i) {
-    fill(Band{i * volume.height / bands, (i + 1) * volume.height / bands});
-  });
-}
-
-/// Returns whether the two views' tiles have rows of the same pixels.
-bool is_rectified(const VolumeJob& job) {
-  return job.map.rectified && job.right.height() == job.left.height() &&
-         job.right.width() == job.left.width() + 2 * job.margin;
-}
-
+/// Fills all planes, with a band of rows per thread.
 template <class Comparer>
 void fill_with(const VolumeJob& job, const Settings& settings, const Comparer& comparer,
                Volume& volume) {
-  for_each_band(volume, [&](Band band) { fill_band(job, settings, band, comparer, volume); });
+  const int bands = std::clamp(tbb::this_task_arena::max_concurrency(), 1, volume.height);
+  tbb::parallel_for(0, bands, [&](int i) {
+    const Band band{i * volume.height / bands, (i + 1) * volume.height / bands};
+    fill_band(job, settings, band, comparer, volume);
+  });
 }
 
 void fill_on_target(const VolumeJob& job, const Settings& settings, Volume& volume) {
   if (settings.measure == Measure::census) {
     fill_with(job, settings, CensusComparer(job.left, settings.radius), volume);
-  } else if (is_rectified(job)) {
-    for_each_band(volume, [&](Band band) {
-      RectifiedFiller filler(job, settings, volume);
-      for (int y = band.first; y < band.end; ++y) filler.fill_row(y);
-    });
   } else {
     fill_with(job, settings,
               ZnccComparer(job.left, settings.radius, static_cast<float>(settings.variance_floor)),
