@@ -1,31 +1,28 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <stdlib.h>
 
-#include <array>
 #include <filesystem>
-#include <opencv2/videoio.hpp>
+#include <opencv2/core.hpp>
 #include <string>
-#include <vector>
 
 #include "doctor/probe.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack::doctor {
 namespace {
 
-/// Writes a video of some frames and reads it. Returns whether its first frame is there.
-bool writes(const std::string& file, const char* codec) {
+/// Writes a video of some frames as the output `overlay` does, and reads it. Returns the codec.
+std::string written_codec(const std::string& file) {
   constexpr int kFrames = 4;
   const cv::Mat frame(64, 96, CV_8UC3, cv::Scalar(40, 120, 200));
-  {
-    cv::VideoWriter writer(file, cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
-                           30, frame.size());
-    if (!writer.isOpened()) return false;
-    for (int i = 0; i < kFrames; ++i) writer.write(frame);
-  }
-  cv::VideoCapture capture(file);
+  const auto writer = create_video(file, frame.size(), 30);
+  for (int i = 0; i < kFrames; ++i) writer->write(frame);
+  if (const std::string why = writer->finish(); !why.empty()) throw OutputError(why);
   cv::Mat read;
-  return capture.read(read) && read.size() == frame.size();
+  const std::string why = open_video(file)->read(0, read);
+  if (!why.empty()) throw DataError(why);
+  return writer->codec();
 }
 
 }  // namespace
@@ -36,19 +33,20 @@ Check probe_video() {
     return {.state = State::broken,
             .found = "no folder can be made in " + std::filesystem::temp_directory_path().string(),
             .fix = "make it writable, or set TMPDIR"};
-  std::vector<std::string> good;
-  for (const char* codec : {"avc1", "mp4v"})  // in the order of the output `overlay`
-    if (writes(folder + "/" + codec + ".mp4", codec)) good.emplace_back(codec);
+  Check out;
+  try {
+    const std::string codec = written_codec(folder + "/video.mp4");
+    out.found = fmt::format("FFmpeg writes {} into .mp4{}", codec,
+                            codec == "h264" ? "" : ", which browsers do not play");
+  } catch (const Error& error) {
+    out = {.state = State::broken,
+           .found = error.what(),
+           .fix =
+               "take an FFmpeg whose libavcodec has libx264, or run with "
+               "--set output.overlay=false"};
+  }
   std::filesystem::remove_all(folder);
-  if (good.empty())
-    return {.state = State::broken,
-            .found = "OpenCV writes neither avc1 nor mp4v into .mp4",
-            .fix =
-                "take an OpenCV with FFmpeg (sudo apt-get install libopencv-dev), or run with "
-                "--set output.overlay=false"};
-  const bool in_browsers = good.front() == "avc1";
-  return {.found = fmt::format("OpenCV writes {} into .mp4{}", fmt::join(good, " and "),
-                               in_browsers ? "" : ", which browsers do not play")};
+  return out;
 }
 
 }  // namespace hypotrack::doctor

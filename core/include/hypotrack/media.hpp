@@ -80,4 +80,27 @@ struct VideoColors {
 HYPOTRACK_API std::unique_ptr<VideoFile> open_video(const std::string& file,
                                                     const VideoColors& colors = {});
 
+/// Writes pictures into a video file that players show: H.264 in MP4, or MPEG-4 where FFmpeg lacks
+/// that. An object that is destroyed without finish() leaves a file that does not play.
+class HYPOTRACK_API VideoWriter {
+ public:
+  VideoWriter() = default;
+  virtual ~VideoWriter() = default;
+  VideoWriter(const VideoWriter&) = delete;
+  VideoWriter& operator=(const VideoWriter&) = delete;
+
+  /// Returns FFmpeg's name of the codec, `h264` or `mpeg4`.
+  virtual std::string codec() const = 0;
+  /// Adds a picture, 8-bit BGR of the video's size. Returns an empty text, or why it cannot be
+  /// written.
+  virtual std::string write(const cv::Mat& picture) = 0;
+  /// Ends the file; write() must not follow. Returns an empty text, or why the file is not whole.
+  virtual std::string finish() = 0;
+};
+
+/// Creates a video file (.mp4) of pictures of one size at a constant rate, in frames per second.
+/// Odd widths and heights grow by a repeated pixel. Throws OutputError if it cannot be created.
+HYPOTRACK_API std::unique_ptr<VideoWriter> create_video(const std::string& file, cv::Size size,
+                                                        double frame_rate);
+
 }  // namespace hypotrack

@@ -14,6 +14,7 @@ namespace {
 RenderStyle shaded_for(const Camera& camera) {
   RenderStyle style;
   style.textured = false;
+  style.samples = 1;  // outlines cover the edges
   style.ambient = 0.35;
   style.diffuse = 0.85;
   style.specular = 0.15;

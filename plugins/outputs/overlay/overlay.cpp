@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
-#include "hypotrack/disk.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/picture.hpp"
 #include "hypotrack/plugin.hpp"
 
@@ -89,14 +89,12 @@ class Overlay final : public Output {
   Renderer* renderer_ = nullptr;
   std::vector<Camera> cameras_;  ///< of the views that are drawn
   cv::Size size_;                ///< of the video
-  cv::VideoWriter writer_;
   std::filesystem::path file_;
-  int written_ = 0;  ///< frames
+  std::unique_ptr<VideoWriter> writer_;
 };
 
 void Overlay::begin(OutputContext& run) {
-  const std::filesystem::path file = run.file("overlay.mp4");
-  file_ = file;
+  file_ = run.file("overlay.mp4");
   run_ = &run;
   renderer_ = &run.renderer();
   cameras_ = run.cameras();
@@ -105,16 +103,12 @@ void Overlay::begin(OutputContext& run) {
     size_.width += camera.width;
     size_.height = std::max(size_.height, camera.height);
   }
-  // Browsers play H.264, which not every FFmpeg can write, and not MPEG-4 Part 2.
-  for (const char* codec : {"avc1", "mp4v"})
-    if (!writer_.isOpened())
-      writer_.open(file.string(), cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
-                   run.frame_rate(), size_);
-  if (!writer_.isOpened())
-    throw OutputError(fmt::format(
-        "{}: this OpenCV cannot write an .mp4 video there (it needs its FFmpeg backend); run with "
-        "--set output.overlay=false to do without",
-        file.string()));
+  try {
+    writer_ = create_video(file_.string(), size_, run.frame_rate());
+  } catch (const OutputError& error) {
+    throw OutputError(
+        fmt::format("{}; run with --set output.overlay=false to do without", error.what()));
+  }
 }
 
 void Overlay::draw(const Frame& frame, const Solution& solution, std::size_t view, cv::Mat image) {
@@ -143,22 +137,16 @@ void Overlay::online(const Frame& frame, const Solution& solution) {
     left += camera.width;
   }
   write_caption(image, caption);
-  writer_.write(image);
-  ++written_;
+  writer_->write(image);  // finish() tells what went wrong: the other results are whole
 }
 
-/// Closes the video and reads it back: OpenCV does not say whether it could write.
 void Overlay::finish(bool /*complete*/) {
-  writer_.release();
-  if (written_ == 0) return;
-  const std::string why = why_not_written(file_);
-  const cv::VideoCapture video(file_.string());
-  const bool whole =
-      video.isOpened() && std::lround(video.get(cv::CAP_PROP_FRAME_COUNT)) == written_;
-  if (whole && why.empty()) return;
-  throw OutputError(fmt::format(
-      "{}: the video is cut off and may not play{}; make room or name another folder with --out",
-      file_.string(), why.empty() ? "" : ": " + why));
+  const std::string why = writer_->finish();
+  if (why.empty()) return;
+  throw OutputError(
+      fmt::format("{}: the video is cut off and may not play: {}; make room or name another folder "
+                  "with --out",
+                  file_.string(), why));
 }
 
 }  // namespace

@@ -295,8 +295,9 @@ TEST_F(BadInputTest, WithoutMp4NothingIsWrittenAndTheWayOutIsSaid) {
   Start start;
   start.arguments = {"run", scene(replaced(box_scene(), "overlay: false", "overlay: true")),
                      "--out", path("out").string()};
-  start.environment = {"OPENCV_VIDEOIO_PRIORITY_FFMPEG=0", "OPENCV_VIDEOIO_PRIORITY_GSTREAMER=0"};
-  expect_refusal(run_program(start), {"overlay.mp4", "--set output.overlay=false"});
+  start.environment = {"LD_PRELOAD=" + (build_dir() / "tests/support/no_encoders.so").string()};
+  expect_refusal(run_program(start),
+                 {"overlay.mp4", "neither H.264 nor MPEG-4", "--set output.overlay=false"});
 }
 
 TEST_F(BadInputTest, AFullDiskOrALimitOnFileSizesIsReportedAndLeavesNoFinishedRun) {

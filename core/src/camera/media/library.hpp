@@ -16,11 +16,18 @@ struct MediaLibrary {
   /// Returns null, and why, if the file is no video.
   std::unique_ptr<VideoFile> (*open_video)(const std::string& file, const VideoColors& colors,
                                            std::string& problem);
+  /// Returns null, and why, if the file cannot be created.
+  std::unique_ptr<VideoWriter> (*create_video)(const std::string& file, cv::Size size,
+                                               double frame_rate, std::string& problem);
 };
 
 /// Opens a video file with FFmpeg. Returns null, and why in `problem`, if that fails.
 std::unique_ptr<VideoFile> open_file(const std::string& file, const VideoColors& colors,
                                      std::string& problem);
+
+/// Creates a video file with FFmpeg. Returns null, and why in `problem`, if that fails.
+std::unique_ptr<VideoWriter> create_file(const std::string& file, cv::Size size, double frame_rate,
+                                         std::string& problem);
 
 /// Name of the module's function that returns its MediaLibrary.
 inline constexpr const char* kMediaLibrary = "hypotrack_media_library";

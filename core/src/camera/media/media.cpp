@@ -69,4 +69,12 @@ std::unique_ptr<VideoFile> open_video(const std::string& file, const VideoColors
   return video;
 }
 
+std::unique_ptr<VideoWriter> create_video(const std::string& file, cv::Size size,
+                                          double frame_rate) {
+  std::string problem;
+  std::unique_ptr<VideoWriter> video = library().create_video(file, size, frame_rate, problem);
+  if (!video) throw OutputError(fmt::format("{}: {}", file, problem));
+  return video;
+}
+
 }  // namespace hypotrack

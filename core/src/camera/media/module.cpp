@@ -25,8 +25,8 @@ std::vector<unsigned char> encode(const std::string& extension, const cv::Mat& i
 
 extern "C" __attribute__((visibility("default"))) const hypotrack::MediaLibrary&
 hypotrack_media_library() {
-  static constexpr hypotrack::MediaLibrary kLibrary = {hypotrack::read, hypotrack::write,
-                                                       hypotrack::decode, hypotrack::encode,
-                                                       hypotrack::open_file};
+  static constexpr hypotrack::MediaLibrary kLibrary = {
+      hypotrack::read,   hypotrack::write,     hypotrack::decode,
+      hypotrack::encode, hypotrack::open_file, hypotrack::create_file};
   return kLibrary;
 }
