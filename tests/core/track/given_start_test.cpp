@@ -1,4 +1,4 @@
-#include "track/given_start.hpp"
+#include "track/loop/given_start.hpp"
 
 #include <gtest/gtest.h>
 

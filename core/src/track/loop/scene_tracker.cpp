@@ -1,4 +1,4 @@
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 #include <fmt/format.h>
 
