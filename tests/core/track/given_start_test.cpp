@@ -66,6 +66,14 @@ TEST_F(GivenStartTest, IsNotedWhereAModelIsFoundFartherThanAStartByHandIsOff) {
             "(mean over the landmarks). Is the start of another frame or recording?");
 }
 
+TEST_F(GivenStartTest, CountsItsSearchesOfWhichThreeAreEarly) {
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(start_.is_early()) << i;
+    EXPECT_EQ(start_.count_search(), i);
+  }
+  EXPECT_FALSE(start_.is_early());
+}
+
 TEST(GivenStartOdds, FallSoThatOnlySurePosesAreBelieved) {
   EXPECT_EQ(GivenStart::doubted(0), 0);
   EXPECT_EQ(GivenStart::doubted(1), 1);

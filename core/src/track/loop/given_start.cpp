@@ -22,6 +22,11 @@ bool GivenStart::expects_any() const {
   return std::ranges::find(expected_, true) != expected_.end();
 }
 
+bool GivenStart::is_early() const {
+  constexpr int kEarly = 3;
+  return searches_ < kEarly;
+}
+
 double GivenStart::distance(std::size_t model, const Eigen::VectorXd& state) const {
   const Scene::Item& item = scene_.items()[model];
   return landmark_distance(*item.model, scene_.part(item, state_), scene_.part(item, state));
