@@ -32,12 +32,12 @@ void PictureWatch::tell_drifts(FrameSearch& search) const {
 }
 
 bool PictureWatch::doubts_depth(const Frame& frame, const Solution& solution,
-                                const Eigen::VectorXd& state, const FrameSearch& search) {
+                                const Eigen::VectorXd& state, const FrameSearch* search) {
   if (!rig_) return false;
-  if (search.photometric().knows())
-    rig_->look_at_colors(solution.frame, search.second_view_colors());
-  if (solution.status == Status::tracked) {
-    if (const auto motion = model_rows_->next(frame, search.tiles(), search.drawn(state)))
+  if (search && search->photometric().knows())
+    rig_->look_at_colors(solution.frame, search->second_view_colors());
+  if (search && solution.status == Status::tracked) {
+    if (const auto motion = model_rows_->next(frame, search->tiles(), search->drawn(state)))
       rig_->look_at_motion(solution.frame, *motion);
   } else {
     model_rows_->skip();

@@ -37,10 +37,10 @@ class PictureWatch {
   /// Lets a search follow slow changes of brightness.
   void tell_drifts(FrameSearch& search) const;
 
-  /// Takes the solution of a steadied frame, and its state. Returns whether depth may be wrong,
-  /// for the cameras do not fit their calibration.
+  /// Takes the solution of a steadied frame, its state, and the search that found it; null: there
+  /// was none. Returns whether depth may be wrong, for the cameras do not fit their calibration.
   bool doubts_depth(const Frame& frame, const Solution& solution, const Eigen::VectorXd& state,
-                    const FrameSearch& search);
+                    const FrameSearch* search);
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_notes();
 

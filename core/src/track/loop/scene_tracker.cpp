@@ -51,7 +51,9 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
     if (!spoils_pictures(fault)) {
       const Frame steady = pictures_.steadied(frame);
       naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
-      if (pictures_.doubts_depth(steady, solution, loop_.trail.state(), loop_.finder.search()))
+      // A search in the background changes what this would read.
+      const FrameSearch* search = background_.is_running() ? nullptr : &loop_.finder.search();
+      if (pictures_.doubts_depth(steady, solution, loop_.trail.state(), search))
         call_uncertain(solution);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
