@@ -1,6 +1,5 @@
 #include "track/loop/phase.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -72,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(All, PhaseCell,
                                                      kPhaseNames.size() * kPhaseEventNames.size()),
                          [](const testing::TestParamInfo<std::size_t>& cell) {
                            const std::size_t events = kPhaseEventNames.size();
-                           return fmt::format("{}_{}", kPhaseNames[cell.param / events],
-                                              kPhaseEventNames[cell.param % events]);
+                           return std::string(kPhaseNames[cell.param / events]) + "_" +
+                                  std::string(kPhaseEventNames[cell.param % events]);
                          });
 
 TEST(Phase, HasTheTableOfTheDocs) {
