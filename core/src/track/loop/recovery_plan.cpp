@@ -16,6 +16,7 @@ GlobalSearchSettings nearby_effort(const RecoverySettings& recovery) {
       .hypotheses = share(recovery.hypotheses), .refined = share(recovery.refined), .searched = 1};
 }
 
+/// Returns whether lost models are looked for in the background.
 bool is_in_background(const LoopState& loop) {
   return loop.settings.recovery.run == RecoveryRun::background;
 }
