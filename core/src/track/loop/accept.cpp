@@ -51,6 +51,12 @@ ModelFlags accept(LoopState& loop, const Frame& frame, const Candidate& best,
   return good;
 }
 
+void accept_nothing(LoopState& loop, const Frame& frame) {
+  Eigen::VectorXd state = loop.trail.state();
+  for (const ModelTrack& track : loop.tracks) track.extrapolate(frame.time, state);
+  loop.trail.move_to(std::move(state));
+}
+
 void learn(LoopState& loop, const Frame& frame, const Candidate& best,
            const std::vector<Status>& judgement) {
   ModelFlags tracked;

@@ -107,14 +107,11 @@ void FrameJudge::doubt_hidden(const Frame& frame, const Candidate& best, Solutio
 }
 
 void FrameJudge::judge_without_search(const Frame& frame, Solution& solution) {
-  Eigen::VectorXd state = loop_.trail.state();
   for (std::size_t m = 0; m < loop_.tracks.size(); ++m) {
     const bool is_gone = loop_.tracks.departure().is_gone(m, frame.time);
     solution.models[m] = loop_.tracks[m].judge({.cost = kInfinite, .in_view = !is_gone});
-    loop_.tracks[m].extrapolate(frame.time, state);
-    loop_.given.conclude(frame.index, m, state, false);
+    loop_.given.conclude(frame.index, m, loop_.trail.state(), false);
   }
-  loop_.trail.move_to(std::move(state));
   solution.status = Status::lost;
   widen(frame, solution);
 }

@@ -106,14 +106,19 @@ void SceneTracker::find_in_background(const Frame& frame, const RecoveryRequest&
     loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7));
     return found;
   });
-  judge_.judge_without_search(frame, solution);
+  stay_lost(frame, solution);
 }
 
 void SceneTracker::find_from_background(const Frame& frame, Solution& solution) {
   std::optional<Candidate> best = background_.take();
-  if (!best) return judge_.judge_without_search(frame, solution);
+  if (!best) return stay_lost(frame, solution);
   catch_up(loop_, plan_, frame, *best);
   conclude(frame, *best, solution);
+}
+
+void SceneTracker::stay_lost(const Frame& frame, Solution& solution) {
+  judge_.judge_without_search(frame, solution);
+  accept_nothing(loop_, frame);
 }
 
 void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution& solution) {

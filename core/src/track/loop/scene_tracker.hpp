@@ -75,6 +75,8 @@ class SceneTracker {
                           Solution& solution);
   /// Searches a frame from the result of the search in the background, once it has one.
   void find_from_background(const Frame& frame, Solution& solution);
+  /// Ends a frame without a result, while the search goes on in the background.
+  void stay_lost(const Frame& frame, Solution& solution);
   /// Judges the result of a frame, goes on from it and learns from it.
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
 

@@ -36,6 +36,9 @@ void catch_up(LoopState& loop, RecoveryPlan& plan, const Frame& frame, Candidate
 ModelFlags accept(LoopState& loop, const Frame& frame, const Candidate& best,
                   const std::vector<Status>& judgement);
 
+/// Lets the next search go on from where all models were right last: nothing was found.
+void accept_nothing(LoopState& loop, const Frame& frame);
+
 /// Learns from the models that are tracked: motion, last right poses and, if surely right, looks.
 void learn(LoopState& loop, const Frame& frame, const Candidate& best,
            const std::vector<Status>& judgement);
