@@ -11,8 +11,9 @@ Prints a table of a checkout, of tracked files only, so that two commits can be 
   keys           parameters that the tracker's visit() functions declare
   words of hands hand, finger, palm, thumb, wrist, or their plurals, as words of code or comments. "In names" also counts
                  parts of names (hand_proportions, kHand)
-  tracker loop   core/src/track*/loop, or scene_tracker.cpp and .hpp while there is no such folder. Loose flags are its
-                 members of a truth value, number, count, time or status: state that a phase does not own
+  tracker loop   scene_tracker.cpp and .hpp; its room is all of core/src/track*/loop, or these two while there is no such
+                 folder. Flags are members of a truth value, number, count, time or status. They are loose outside of
+                 model_track.hpp, which owns a phase and what it remembers
   words of docs  as wc -w counts them, without the generated pages of plugins
   camera model   files of the product that name the fisheye model: a stand-in for the files that a camera model touches
 
@@ -100,8 +101,9 @@ def count(root):
     code = {f: t for f, t in texts.items() if f.endswith(CODE)}
     lines = {f: t.count("\n") for f, t in texts.items()}
     track = [t for f, t in code.items() if re.match(r"core/src/track(ing)?/", f)]
-    loop = [f for f in code if re.match(r"core/src/track(ing)?/loop/", f)] or \
-        [f for f in code if re.fullmatch(r"core/src/track(ing)?/scene_tracker\.[ch]pp", f)]
+    loop = [f for f in code if re.fullmatch(r"core/src/track(ing)?/(loop/)?scene_tracker\.[ch]pp", f)]
+    room = [f for f in code if re.match(r"core/src/track(ing)?/loop/", f)] or loop
+    tracks = [f for f in room if f.endswith("/model_track.hpp")]
     core = {f: t for f, t in code.items() if f.startswith("core/") and not f.startswith("core/app/")}
     headers = [f for f in code if f.startswith("core/include/hypotrack/")]
     docs = [f for f in files if f.startswith("docs/") and f.endswith(".md") and "reference/plugins/" not in f]
@@ -112,7 +114,10 @@ def count(root):
 
     return {
         "tracker loop, lines": sum(lines[f] for f in loop),
+        "  its room": sum(lines[f] for f in room),
         "tracker loop, loose flags": sum(flags(code[f]) for f in loop if f.endswith(".hpp")),
+        "  in its room": sum(flags(code[f]) for f in room if f.endswith(".hpp") and f not in tracks),
+        "flags that a phase owns": sum(flags(code[f]) for f in tracks),
         "constants in tracking": sum(constants(t)[0] for t in track),
         "  their names": sum(constants(t)[1] for t in track),
         "numbers in tracking": sum(map(numbers, track)),

@@ -8,7 +8,7 @@
 #include "session/opened_scene.hpp"
 #include "start_drawing.hpp"
 #include "tell.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "hypotrack/frame.hpp"
 #include "hypotrack/source.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::app {
 

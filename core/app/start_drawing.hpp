@@ -5,7 +5,7 @@
 
 #include "picture/start_picture.hpp"
 #include "session/opened_scene.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::app {
 

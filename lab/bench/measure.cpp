@@ -10,7 +10,7 @@
 #include "output/frame_statuses.hpp"
 #include "output/true_landmarks.hpp"
 #include "session/opened_scene.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::bench::internal {
 namespace {

@@ -11,7 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "session/opened_scene.hpp"
 #include "track/frame_search.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::internal {
 namespace {

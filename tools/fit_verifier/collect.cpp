@@ -19,8 +19,8 @@
 #include "session/opened_scene.hpp"
 #include "track/color/photometric.hpp"
 #include "track/displace.hpp"
+#include "track/loop/scene_tracker.hpp"
 #include "track/recover/recovery.hpp"
-#include "track/scene_tracker.hpp"
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {

@@ -8,7 +8,7 @@
 
 #include "base/exported.hpp"
 #include "output/output_queue.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {

@@ -3,7 +3,7 @@
 #include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "output/metrics/status_metrics.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -12,7 +12,7 @@
 #include "output/output_queue.hpp"
 #include "output/run_output.hpp"
 #include "session/opened_scene.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -9,7 +9,7 @@
 #include "hypotrack/session.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "run/results.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

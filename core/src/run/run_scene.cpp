@@ -19,7 +19,7 @@
 #include "run/run_notes.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/estimated_scene.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::internal {
 namespace {

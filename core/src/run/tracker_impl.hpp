@@ -7,7 +7,7 @@
 
 #include "hypotrack/tracker.hpp"
 #include "session/opened_scene.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 

@@ -17,7 +17,7 @@
 #include "hypotrack/start.hpp"
 #include "session/scene_file.hpp"
 #include "session/term_times.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {

@@ -4,7 +4,7 @@
 
 #include "base/exported.hpp"
 #include "shape/image_problem.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

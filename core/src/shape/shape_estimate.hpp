@@ -11,7 +11,7 @@
 #include "session/opened_scene.hpp"
 #include "session/shape_settings.hpp"
 #include "shape/shape_targets.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

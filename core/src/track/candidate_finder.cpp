@@ -36,6 +36,14 @@ double Candidate::probability() const {
   return least;
 }
 
+void Candidate::drop(std::size_t model) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  shown[model] = false;
+  probabilities[model] = 0;
+  unseen[model] = kInfinite;
+  if (!any(shown)) found.cost = kInfinite;
+}
+
 CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
                                  const StatusSettings& settings)
     : scene_(scene),

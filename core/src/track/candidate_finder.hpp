@@ -53,6 +53,8 @@ struct Candidate {
   bool answers() const { return std::isfinite(found.cost); }
   /// Returns the smallest probability of the models shown; NaN if none is known.
   double probability() const;
+  /// Takes a model out, which is in a wrong pose.
+  void drop(std::size_t model);
   /// Returns whether it is so probable that no other pose has to be searched.
   bool is_sure() const { return probability() >= 0.95; }
   /// Returns whether a detector has seen the model there lately.

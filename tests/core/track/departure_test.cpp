@@ -1,4 +1,4 @@
-#include "track/departure.hpp"
+#include "track/loop/departure.hpp"
 
 #include <gtest/gtest.h>
 

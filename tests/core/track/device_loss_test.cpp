@@ -6,7 +6,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "test_models.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 namespace {

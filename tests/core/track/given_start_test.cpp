@@ -1,4 +1,4 @@
-#include "track/given_start.hpp"
+#include "track/loop/given_start.hpp"
 
 #include <gtest/gtest.h>
 
@@ -64,6 +64,14 @@ TEST_F(GivenStartTest, IsNotedWhereAModelIsFoundFartherThanAStartByHandIsOff) {
   EXPECT_EQ(notes[0],
             "frame 9: the start (init) is not where 'hand' is: a reason; it was found 60 mm away "
             "(mean over the landmarks). Is the start of another frame or recording?");
+}
+
+TEST_F(GivenStartTest, CountsItsSearchesOfWhichThreeAreEarly) {
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(start_.is_early()) << i;
+    EXPECT_EQ(start_.count_search(), i);
+  }
+  EXPECT_FALSE(start_.is_early());
 }
 
 TEST(GivenStartOdds, FallSoThatOnlySurePosesAreBelieved) {

@@ -10,7 +10,7 @@
 #include "base/stop_scope.hpp"
 #include "hypotrack/start_points.hpp"
 #include "test_models.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 namespace {

@@ -10,7 +10,7 @@
 #include "hypotrack/error.hpp"
 #include "shiny_ball.hpp"
 #include "test_models.hpp"
-#include "track/scene_tracker.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack {
 namespace {

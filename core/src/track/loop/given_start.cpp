@@ -1,4 +1,4 @@
-#include "track/given_start.hpp"
+#include "track/loop/given_start.hpp"
 
 #include <fmt/format.h>
 
@@ -20,6 +20,11 @@ GivenStart::GivenStart(const Scene& scene, Eigen::VectorXd state, bool is_given)
 
 bool GivenStart::expects_any() const {
   return std::ranges::find(expected_, true) != expected_.end();
+}
+
+bool GivenStart::is_early() const {
+  constexpr int kEarly = 3;
+  return searches_ < kEarly;
 }
 
 double GivenStart::distance(std::size_t model, const Eigen::VectorXd& state) const {

@@ -25,6 +25,11 @@ class GivenStart {
   bool expects(std::size_t model) const { return expected_[model]; }
   bool expects_any() const;
 
+  /// Counts a search from the start. Returns the number of those before.
+  int count_search() { return searches_++; }
+  /// Returns whether so few were made that only a likely pose is believed.
+  bool is_early() const;
+
   /// Returns the mean distance of a model's landmarks in a state from those at the start, metres.
   double distance(std::size_t model, const Eigen::VectorXd& state) const;
 
@@ -52,6 +57,7 @@ class GivenStart {
   std::vector<bool> expected_, noted_;  ///< by model
   std::vector<std::string> doubts_;     ///< by model; empty: none
   std::vector<std::string> notes_;
+  int searches_ = 0;
 };
 
 }  // namespace internal

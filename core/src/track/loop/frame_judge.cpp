@@ -1,0 +1,123 @@
+#include "track/loop/frame_judge.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace hypotrack::internal {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Returns the status of a frame from those of its models.
+Status worst(const std::vector<Status>& models) {
+  if (std::ranges::all_of(models, [](Status s) { return s == Status::absent; }))
+    return Status::absent;
+  Status out = Status::tracked;
+  for (const Status s : models) out = std::max(out, std::min(s, Status::lost));
+  return out;
+}
+
+}  // namespace
+
+void call_uncertain(Solution& solution) {
+  for (Status& status : solution.models)
+    if (status == Status::tracked) status = Status::uncertain;
+  solution.status = worst(solution.models);
+}
+
+FrameJudge::FrameJudge(LoopState& loop) : loop_(loop) {
+  if (loop.settings.uncertainty.enabled)
+    uncertainty_.emplace(loop.scene, loop.settings.uncertainty);
+}
+
+Solution FrameJudge::unjudged(const Frame& frame) const {
+  Solution solution;
+  solution.frame = frame.index;
+  solution.time = frame.time;
+  solution.cost = kUnknown;
+  solution.fault = frame.fault;
+  solution.models.assign(loop_.tracks.size(), Status::missing);
+  solution.probabilities.assign(loop_.tracks.size(), kUnknown);
+  if (uncertainty_) solution.sigma.setConstant(std::ssize(loop_.scene.landmark_names()), kUnknown);
+  return solution;
+}
+
+std::vector<Status> FrameJudge::judge(const Frame& frame, const Candidate& best,
+                                      Solution& solution) {
+  solution.cost = best.found.cost;
+  solution.evaluations = best.found.evaluations;
+  solution.probabilities = best.probabilities;
+  const StatusEvidence shared = shared_evidence(frame, best, solution);
+  for (std::size_t m = 0; m < loop_.tracks.size(); ++m) {
+    // A detector that sees the model there confirms it as another search does.
+    if (best.unseen[m] <= 0) loop_.tracks[m].see(frame.time);
+    solution.models[m] = loop_.tracks[m].judge(evidence_of(m, frame, best, solution, shared));
+    loop_.given.conclude(frame.index, m, best.found.state, solution.models[m] == Status::tracked);
+  }
+  const std::vector<Status> judgement = solution.models;
+  doubt_hidden(frame, best, solution);
+  solution.status = worst(solution.models);
+  return judgement;
+}
+
+StatusEvidence FrameJudge::shared_evidence(const Frame& frame, const Candidate& best,
+                                           Solution& solution) {
+  StatusEvidence evidence{.cost = best.found.cost, .sigma = kUnknown};
+  if (!best.answers()) return evidence;
+  FrameSearch& search = loop_.finder.search();
+  search.show(best.shown);
+  const Eigen::VectorXd drawn = search.drawn(best.found.state);
+  evidence.visible = search.tiles().visible_share(best.found.state);
+  evidence.foreground_overlap = search.tiles().foreground_overlap(frame, drawn);
+  if (uncertainty_) {
+    solution.sigma = uncertainty_->of(search.cost(), drawn);
+    solution.evaluations += uncertainty_->evaluations();
+  }
+  return evidence;
+}
+
+StatusEvidence FrameJudge::evidence_of(std::size_t model, const Frame& frame, const Candidate& best,
+                                       const Solution& solution, StatusEvidence shared) const {
+  StatusEvidence own = shared;
+  if (!best.shown[model]) own.cost = kInfinite;
+  own.probability = best.probabilities[model];
+  own.sigma = loop_.tracks[model].mean_sigma(solution.sigma);
+  own.recognized = best.is_recognized(model);
+  own.confirmed = best.confirmed[model] || best.unseen[model] <= 0;
+  // What has left the pictures takes more evidence to be back.
+  const bool is_back = own.probability >= loop_.settings.confirmed_above || own.recognized;
+  const bool is_found = best.answers() && best.shown[model] && is_back;
+  const bool is_gone =
+      loop_.recovers() && !is_found && loop_.tracks.departure().is_gone(model, frame.time);
+  own.in_view = best.in_view[model] && !is_gone;
+  return own;
+}
+
+void FrameJudge::doubt_hidden(const Frame& frame, const Candidate& best, Solution& solution) {
+  if (best.answers()) solution.hidden = loop_.finder.hidden(best.found.state);
+  for (std::size_t m = 0; m < loop_.tracks.size(); ++m) {
+    Status& status = solution.models[m];
+    const bool is_tracked = status == Status::tracked;
+    if (loop_.tracks[m].widen_hidden(solution.hidden, is_tracked, frame.time,
+                                     loop_.settings.uncertain_sigma, solution.sigma) &&
+        is_tracked)
+      status = Status::uncertain;
+  }
+}
+
+void FrameJudge::judge_without_search(const Frame& frame, Solution& solution) {
+  for (std::size_t m = 0; m < loop_.tracks.size(); ++m) {
+    const bool is_gone = loop_.tracks.departure().is_gone(m, frame.time);
+    solution.models[m] = loop_.tracks[m].judge({.cost = kInfinite, .in_view = !is_gone});
+    loop_.given.conclude(frame.index, m, loop_.trail.state(), false);
+  }
+  solution.status = Status::lost;
+  widen(frame, solution);
+}
+
+void FrameJudge::widen(const Frame& frame, Solution& solution) const {
+  for (const ModelTrack& track : loop_.tracks) track.widen(frame.time, solution.sigma);
+}
+
+}  // namespace hypotrack::internal

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "base/exported.hpp"
+#include "cost/cost.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "hypotrack/search_record.hpp"
+#include "track/candidate_finder.hpp"
+#include "track/frame_search.hpp"
+#include "track/search_trace.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Records and traces the searches of a frame for whoever asked for that.
+class FrameRecord {
+ public:
+  /// Begins. `record` and `trace` may be null. All arguments must outlive the object.
+  FrameRecord(const Scene& scene, FrameSearch& search, const Frame& frame, SearchRecord* record,
+              FrameTrace* trace);
+
+  /// Ends, for later searches are neither recorded nor traced.
+  void end();
+  /// Ends after the searches. The answer and the truth are evaluated in the tiles of the answer.
+  void end(const Candidate& best);
+  /// Adds the tiles, the answer drawn in them and the terms' maps of it.
+  void describe(const Candidate& best, const std::vector<ObjectiveTerm>& terms);
+
+ private:
+  const Scene& scene_;
+  FrameSearch& search_;
+  const Frame& frame_;
+  SearchRecord* record_;
+  FrameTrace* trace_;
+};
+
+}  // namespace internal
+}  // namespace hypotrack

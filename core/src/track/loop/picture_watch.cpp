@@ -1,0 +1,52 @@
+#include "track/loop/picture_watch.hpp"
+
+#include "track/faults/fault_text.hpp"
+
+namespace hypotrack::internal {
+
+PictureWatch::PictureWatch(const Scene& scene, const std::vector<Camera>& cameras,
+                           const std::vector<ObjectiveTerm>& terms, bool is_on) {
+  if (!is_on) return;
+  checks_.emplace(cameras, joined_use(terms).depth);
+  rig_ = RigWatch::make(cameras);
+  if (rig_) model_rows_.emplace(scene);
+}
+
+ViewFault PictureWatch::check(const Frame& frame) {
+  const ViewFault found = checks_ ? checks_->check(frame) : ViewFault{};
+  if (rig_ && !spoils_pictures(found.fault)) rig_->look(frame);
+  return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
+}
+
+void PictureWatch::keep_brightness() {
+  if (checks_) brightness_.next(checks_->jumps());
+}
+
+Frame PictureWatch::steadied(const Frame& frame) const {
+  const Frame steady = brightness_.applied_to(frame);
+  return rig_ ? rig_->applied_to(steady) : steady;
+}
+
+void PictureWatch::tell_drifts(FrameSearch& search) const {
+  if (checks_) search.follow_brightness(checks_->drifts());
+}
+
+bool PictureWatch::doubts_depth(const Frame& frame, const Solution& solution,
+                                const Eigen::VectorXd& state, const FrameSearch* search) {
+  if (!rig_) return false;
+  if (search && search->photometric().knows())
+    rig_->look_at_colors(solution.frame, search->second_view_colors());
+  if (search && solution.status == Status::tracked) {
+    if (const auto motion = model_rows_->next(frame, search->tiles(), search->drawn(state)))
+      rig_->look_at_motion(solution.frame, *motion);
+  } else {
+    model_rows_->skip();
+  }
+  return rig_->is_doubtful();
+}
+
+std::vector<std::string> PictureWatch::take_notes() {
+  return rig_ ? rig_->take_notes() : std::vector<std::string>();
+}
+
+}  // namespace hypotrack::internal

@@ -1,0 +1,158 @@
+#include "track/loop/scene_tracker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
+#include "track/faults/fault_text.hpp"
+#include "track/loop/setup.hpp"
+#include "track/loop/steps.hpp"
+
+namespace hypotrack::internal {
+namespace {
+
+/// Calls a function and names the frame in what it throws, and if it crashes.
+template <class Function>
+void naming(const Frame& frame, const Function& function) {
+  const detail::RunningFrame running(frame.index);
+  try {
+    function();
+  } catch (...) {
+    detail::rethrow_from(fmt::format("frame {}", frame.index));
+  }
+}
+
+}  // namespace
+
+SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start,
+                           std::uint64_t seed)
+    : loop_(scene, parts, std::move(start), seed),
+      terms_(parts.objective),
+      pictures_(scene, parts.cameras, terms_,
+                loop_.settings.check_pictures && look_at_pictures(terms_)),
+      judge_(loop_) {
+  check_looking(parts, loop_.recovers());
+  reserve_evaluations(parts.fixed_lag, judge_.evaluations(), loop_.finder.budget());
+}
+
+Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
+  Solution solution = judge_.unjudged(frame);
+  if (!frame.views.empty()) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto [fault, view] = pictures_.check(frame);
+    solution.fault = fault;
+    solution.fault_view = view;
+    pictures_.keep_brightness();
+    if (!spoils_pictures(fault)) {
+      const Frame steady = pictures_.steadied(frame);
+      naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
+      // A search in the background changes what this would read.
+      const FrameSearch* search = background_.is_running() ? nullptr : &loop_.finder.search();
+      if (pictures_.doubts_depth(steady, solution, loop_.trail.state(), search))
+        call_uncertain(solution);
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    solution.seconds = elapsed.count();
+  }
+  naming(frame, [&] {
+    solution.state = loop_.trail.output(solution);
+    solution.landmarks = loop_.scene.landmarks(solution.state);
+  });
+  return solution;
+}
+
+void SceneTracker::find_or_leave_device(const Frame& frame, Solution& solution,
+                                        SearchRecord* record, FrameTrace* trace) {
+  const Solution before = solution;
+  try {
+    return find(frame, solution, record, trace);
+  } catch (const DeviceError& error) {
+    loop_.finder.search().leave_device(error);
+  }
+  solution = before;
+  if (record) *record = SearchRecord();
+  if (trace) *trace = FrameTrace();
+  find(frame, solution, record, trace);
+}
+
+void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record,
+                        FrameTrace* trace) {
+  if (background_.is_running()) return find_from_background(frame, solution);
+  pictures_.tell_drifts(loop_.finder.search());
+  FrameRecord watch(loop_.scene, loop_.finder.search(), frame, record, trace);
+  Candidate best = follow(loop_, frame);
+  if (loop_.can_recover(best)) {
+    check_start(loop_, frame, best);
+    const RecoveryRequest request = plan_.next(loop_, frame, best);
+    if (plan_.is_for_background(loop_, request, best)) {
+      watch.end();
+      return find_in_background(frame, request, best, solution);
+    }
+    if (any(request.sought)) recover(loop_, frame, request, best);
+  }
+  watch.end(best);
+  conclude(frame, best, solution);
+  watch.describe(best, terms_);
+}
+
+void SceneTracker::find_in_background(const Frame& frame, const RecoveryRequest& request,
+                                      const Candidate& best, Solution& solution) {
+  background_.start(frame, [this, request, found = best](const Frame& copy) mutable {
+    loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7));
+    return found;
+  });
+  stay_lost(frame, solution);
+}
+
+void SceneTracker::find_from_background(const Frame& frame, Solution& solution) {
+  std::optional<Candidate> best = background_.take();
+  if (!best) return stay_lost(frame, solution);
+  catch_up(loop_, plan_, frame, *best);
+  conclude(frame, *best, solution);
+}
+
+void SceneTracker::stay_lost(const Frame& frame, Solution& solution) {
+  judge_.judge_without_search(frame, solution);
+  accept_nothing(loop_, frame);
+}
+
+void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution& solution) {
+  const ModelFlags before = loop_.followed();
+  const std::vector<Status> judgement = judge_.judge(frame, best, solution);
+  const ModelFlags now = accept(loop_, frame, best, judgement);
+  learn(loop_, frame, best, judgement);
+  // A model that comes back did not move there continuously.
+  const bool is_lost = std::ranges::all_of(judgement, [](Status s) { return s >= Status::lost; });
+  if (is_lost || now != before) loop_.trail.interrupt();
+  if (loop_.recovers()) judge_.widen(frame, solution);
+}
+
+void SceneTracker::search_anew() {
+  background_.cancel();
+  plan_.restart();
+  loop_.restart();
+}
+
+void SceneTracker::check(const Frame& frame) {
+  naming(frame, [&] {
+    FrameSearch& search = loop_.finder.search();
+    search.take_in(search.tiles(), frame, search.tiles().plan(frame, loop_.trail.state()));
+  });
+}
+
+std::string SceneTracker::problem_of_start(const Frame& frame) const {
+  if (!loop_.given.expects_any()) return {};
+  return internal::problem_of_start(frame, loop_.trail.state(), loop_.tiles(),
+                                    loop_.settings.min_visible);
+}
+
+Observation SceneTracker::seen(const Frame& frame) const {
+  return loop_.finder.search().seen(pictures_.steadied(frame));
+}
+
+}  // namespace hypotrack::internal
