@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+
+#include "camera/netpbm.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -51,8 +54,15 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
 std::optional<Size> size_in_header(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n")) return png_size(bytes);
   if (bytes.starts_with("\xFF\xD8\xFF")) return jpeg_size(bytes);
+  if (const auto netpbm = netpbm_of(bytes)) return Size{netpbm->width, netpbm->height};
   return std::nullopt;
 }
+
+/// How files of a format begin.
+struct Beginning {
+  std::size_t at = 0;
+  std::string_view bytes, format;
+};
 
 }  // namespace
 
@@ -61,6 +71,30 @@ std::string problem_of_size(std::string_view bytes) {
   if (!size || size->width * size->height <= kMostPixels) return {};
   return fmt::format("has {}x{} pixels; at most {} are read", size->width, size->height,
                      kMostPixels);
+}
+
+std::string_view unread_format(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  // OpenCV reads PAM, but exchanges red and blue.
+  constexpr std::array<Beginning, 16> kUnread = {{{0, "P7\n", "PAM"},
+                                                  {4, "ftyphei", "HEIF"},
+                                                  {4, "ftypmif1", "HEIF"},
+                                                  {4, "ftypmsf1", "HEIF"},
+                                                  {4, "ftypavi", "AVIF"},
+                                                  {4, "ftypcrx", "CR3"},
+                                                  {0, "\xFF\x0A", "JPEG XL"},
+                                                  {0, "\0\0\0\x0CJXL "sv, "JPEG XL"},
+                                                  {0, "GIF8", "GIF"},
+                                                  {0, "v/1\x01", "OpenEXR"},
+                                                  {0, "8BPS", "PSD"},
+                                                  {0, "DDS ", "DDS"},
+                                                  {0, "\xABKTX", "KTX"},
+                                                  {0, "%PDF", "PDF"},
+                                                  {0, "<svg", "SVG"},
+                                                  {0, "FUJIFILMCCD-RAW", "RAF"}}};
+  for (const Beginning& one : kUnread)
+    if (bytes.size() > one.at && bytes.substr(one.at).starts_with(one.bytes)) return one.format;
+  return {};
 }
 
 }  // namespace hypotrack::internal

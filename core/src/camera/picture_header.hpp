@@ -8,9 +8,12 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Returns what is wrong if a PNG or JPEG file has more pixels, by its header, than are read: a few
-/// bytes must not take gigabytes. Empty for other formats and for damaged headers.
+/// Returns what is wrong if a PNG, JPEG, PGM or PPM file has more pixels, by its header, than are
+/// read: a few bytes must not take gigabytes. Empty for other formats and for damaged headers.
 std::string problem_of_size(std::string_view bytes);
+
+/// Returns the name of a format of pictures that is not read; empty for all others.
+std::string_view unread_format(std::string_view bytes);
 
 }  // namespace internal
 }  // namespace hypotrack
