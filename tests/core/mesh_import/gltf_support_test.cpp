@@ -51,6 +51,21 @@ TEST_F(GltfSupport, OptionalExtensionsThatAreNotHonouredAreNamed) {
                                                        "EXT_odd")));
 }
 
+TEST_F(GltfSupport, KeysAndExtensionsOfAllObjectsAreNamed) {
+  GlbWriter writer = plain();
+  Json& json = writer.json();
+  json["nodes"][0]["odd"] = json["nodes"][0]["extras"] = 1;
+  json["nodes"][0]["extensions"]["VENDOR_unlisted"] = Json::object();
+  json["meshes"][0]["primitives"][0]["odd"] = 1;
+  json["accessors"][0]["odder"] = 1;
+  json["materials"] = {{{"shine", 1}, {"pbrMetallicRoughness", {{"glow", 1}}}}};
+  EXPECT_THAT(
+      read(writer).notes,
+      ElementsAre(EndsWith("glTF extensions that are not honoured: VENDOR_unlisted"),
+                  EndsWith("keys that are not read: accessors.odder, materials.shine, nodes.odd, "
+                           "pbrMetallicRoughness.glow, primitives.odd")));
+}
+
 TEST_F(GltfSupport, WhatIsLeftOutIsCounted) {
   GlbWriter writer = plain();
   Json& json = writer.json();
@@ -184,6 +199,8 @@ TEST_F(GltfSupport, AMeshThatASkinAndANodeShareIsReadForEach) {
 TEST_F(GltfSupport, OtherVersionsAndDeepJsonAreRefused) {
   EXPECT_THAT(import_error(file("a.gltf", R"({"asset": {"version": "1.0"}, "meshes": {}})")),
               HasSubstr("this is glTF version '1.0'; hypotrack reads version 2"));
+  EXPECT_THAT(import_error(file("a.gltf", R"({"asset": {"version": "2.0", "minVersion": "2.1"}})")),
+              HasSubstr("it needs a reader of glTF version '2.1'; hypotrack reads 2.0"));
   const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
   EXPECT_THAT(
       import_error(file("a.gltf", R"({"asset": {"version": "2.0"}, "extras": )" + deep + "}")),
