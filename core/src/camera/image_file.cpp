@@ -85,6 +85,10 @@ ReadImage read_mask(const std::filesystem::path& file) {
     cv::Mat any = channels[0] != 0;
     any |= channels[1] != 0;
     any |= channels[2] != 0;
+    if (const int count = read.image.channels(); count % 2 == 0) {
+      cv::extractChannel(read.image, channels[0], count - 1);
+      if (cv::countNonZero(channels[0]) > 0) any &= channels[0] != 0;
+    }
     read.image = any;
     return read;
   });

@@ -126,9 +126,9 @@ std::string note_on(std::string_view bytes) {
       pictures, of_colours.empty() ? "" : "; ", of_colours);
 }
 
-}  // namespace
-
-std::string contents_note(std::span<const std::filesystem::path> files) {
+/// Returns what a function says of the first file that can be read, behind its name.
+template <class NoteOn>
+std::string note_on_first(std::span<const std::filesystem::path> files, const NoteOn& note_of) {
   for (const std::filesystem::path& file : files) {
     std::string bytes;
     try {
@@ -136,10 +136,25 @@ std::string contents_note(std::span<const std::filesystem::path> files) {
     } catch (const std::exception&) {  // memory; the frame says so
       return {};
     }
-    const std::string note = note_on(bytes);
+    const std::string note = note_of(bytes);
     return note.empty() ? "" : fmt::format("{}: {}", file.string(), note);
   }
   return {};
+}
+
+}  // namespace
+
+std::string contents_note(std::span<const std::filesystem::path> files) {
+  return note_on_first(files, note_on);
+}
+
+std::string mask_note(std::span<const std::filesystem::path> files) {
+  return note_on_first(files, [](const std::string& bytes) {
+    return bytes.starts_with("\xFF\xD8\xFF")
+               ? "is a JPEG file, whose black is inexact: pixels beside the foreground count as "
+                 "foreground; write masks as PNG"
+               : "";
+  });
 }
 
 }  // namespace hypotrack

@@ -141,6 +141,26 @@ TEST_F(PictureContents, IntegersOf32BitsAreNotCalledFloatingPoint) {
   EXPECT_THAT(type_of(CV_32F), HasSubstr("has floating-point pixels; expected 8 or 16 bits"));
 }
 
+TEST_F(PictureContents, TransparentPixelsOfMasksAreBackground) {
+  cv::Mat mask(kFewPixels, CV_8UC4, cv::Scalar(255, 255, 255, 0));
+  const auto foreground = [&] {
+    return cv::countNonZero(read_mask(write("m.png", test::encoded(".png", mask))).image);
+  };
+  EXPECT_EQ(foreground(), kFewPixels.area()) << "alpha says nothing";
+  mask.row(0).setTo(cv::Scalar(255, 255, 255, 9));
+  mask.row(1).setTo(cv::Scalar(0, 0, 0, 255));
+  EXPECT_EQ(foreground(), kFewPixels.width);
+}
+
+TEST_F(PictureContents, MasksOfJpegAreToldToBeInexact) {
+  const cv::Mat black = cv::Mat::zeros(kFewPixels, CV_8U);
+  const auto png = write("m.png", test::encoded(".png", black));
+  const auto jpeg = write("m.jpg", test::encoded(".jpg", black));
+  EXPECT_EQ(mask_note(std::array{png}), "");
+  EXPECT_THAT(mask_note(std::array{folder_.path() / "missing.jpg", jpeg}),
+              HasSubstr("m.jpg: is a JPEG file, whose black is inexact"));
+}
+
 TEST_F(PictureContents, NetpbmHasTheMaximumOfItsHeader) {
   const auto middle = [&](const std::string& bytes) {
     const ReadImage read = read_color(write("a.pnm", bytes));
