@@ -60,21 +60,21 @@ DecodedFile decode_upright(const std::filesystem::path& file) {
   }
   const std::optional<Netpbm> netpbm = netpbm_of(all);
   if (netpbm) read.white = netpbm->largest;
-  const std::string_view unread = unread_format(all);
+  const UnreadFormat unread = unread_format(all);
   try {
-    if (unread != "PAM") read.image = decode(all, netpbm);
+    if (!unread.misread) read.image = decode(all, netpbm);
     if (!read.image.empty()) turn_upright(read.image, all);
   } catch (const cv::Exception& e) {
     if (e.code == cv::Error::StsNoMem) throw;
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines
   }
   if (!read.image.empty()) return read;
-  read.problem = unread.empty()
+  read.problem = unread.name.empty()
                      ? file.string() + ": is damaged or no image"
                      : fmt::format(
                            "{}: is a picture in {}, which is not read; convert it to PNG "
                            "or JPEG",
-                           file.string(), unread);
+                           file.string(), unread.name);
   return read;
 }
 

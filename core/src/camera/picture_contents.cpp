@@ -18,13 +18,18 @@ namespace {
 
 using namespace std::string_view_literals;
 
+/// Returns whether a picture of a TIFF file is a smaller copy of another (TIFF 6.0, section 8).
+bool is_copy(const TiffDirectory& picture) {
+  constexpr std::uint32_t kSubfileType = 254, kSmaller = 1;
+  return (picture.value(kSubfileType) & kSmaller) != 0;
+}
+
 /// Returns the number of pictures of a TIFF file, without smaller copies of others.
 std::size_t pictures_of_tiff(std::string_view bytes) {
-  constexpr std::uint32_t kSubfileType = 254, kSmaller = 1;
   std::size_t count = 0;
   std::set<std::size_t> seen;
   for (TiffDirectory one = tiff_directory(bytes); one.is_inside && seen.insert(one.place).second;) {
-    count += one.value(kSubfileType) & kSmaller ? 0 : 1;
+    count += is_copy(one) ? 0 : 1;
     const std::size_t next = one.next();
     if (next == 0) break;
     one = tiff_directory(bytes, next);
@@ -119,6 +124,9 @@ std::string note_on(std::string_view bytes) {
   if (const TiffDirectory tiff = tiff_directory(bytes); tiff.entry(kProfile) != 0)
     colours.profile =
         name_of_profile(bytes.substr(std::min<std::size_t>(tiff.value(kProfile), bytes.size())));
+  if (is_copy(tiff_directory(bytes)))
+    return "its first picture, which is read, is a smaller copy of another, as in the raw files of "
+           "cameras; convert them to PNG";
   const std::string of_colours = note_of(colours);
   if (pictures < 2) return of_colours;
   return fmt::format(

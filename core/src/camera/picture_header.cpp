@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "camera/netpbm.hpp"
+#include "camera/picture_container.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -73,11 +74,14 @@ std::string problem_of_size(std::string_view bytes) {
                      kMostPixels);
 }
 
-std::string_view unread_format(std::string_view bytes) {
+UnreadFormat unread_format(std::string_view bytes) {
   using namespace std::string_view_literals;
-  // OpenCV reads PAM, but exchanges red and blue.
-  constexpr std::array<Beginning, 16> kUnread = {{{0, "P7\n", "PAM"},
-                                                  {4, "ftyphei", "HEIF"},
+  constexpr std::uint32_t kDngVersion = 50706;
+  if (bytes.starts_with("P7\n")) return {"PAM", true};  // exchanges red and blue
+  if (is_tiff(bytes) && bytes.size() > 10 && bytes.substr(8, 2) == "CR")
+    return {"CR2", true};  // takes the preview
+  if (tiff_directory(bytes).entry(kDngVersion) != 0) return {"DNG", true};
+  constexpr std::array<Beginning, 15> kUnread = {{{4, "ftyphei", "HEIF"},
                                                   {4, "ftypmif1", "HEIF"},
                                                   {4, "ftypmsf1", "HEIF"},
                                                   {4, "ftypavi", "AVIF"},
@@ -93,7 +97,8 @@ std::string_view unread_format(std::string_view bytes) {
                                                   {0, "<svg", "SVG"},
                                                   {0, "FUJIFILMCCD-RAW", "RAF"}}};
   for (const Beginning& one : kUnread)
-    if (bytes.size() > one.at && bytes.substr(one.at).starts_with(one.bytes)) return one.format;
+    if (bytes.size() > one.at && bytes.substr(one.at).starts_with(one.bytes))
+      return {one.format, false};
   return {};
 }
 

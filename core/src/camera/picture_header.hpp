@@ -12,8 +12,14 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// read: a few bytes must not take gigabytes. Empty for other formats and for damaged headers.
 std::string problem_of_size(std::string_view bytes);
 
-/// Returns the name of a format of pictures that is not read; empty for all others.
-std::string_view unread_format(std::string_view bytes);
+/// A format of pictures that is not read.
+struct UnreadFormat {
+  std::string_view name;  ///< empty for all others
+  bool misread = false;   ///< OpenCV decodes it to something else, and does not fail
+};
+
+/// Returns the format of pictures that are not read.
+UnreadFormat unread_format(std::string_view bytes);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -132,6 +132,17 @@ TEST_F(PictureContents, FormatsThatAreNotReadAreNamed) {
               HasSubstr("in PAM, which is not read"));
 }
 
+TEST_F(PictureContents, PreviewsOfRawFilesAreNotTakenForPictures) {
+  // OpenCV decodes the first picture of such TIFF files, a small copy.
+  EXPECT_THAT(note("a.nef", tiff_of({1, 0})), HasSubstr("its first picture, which is read, is a "
+                                                        "smaller copy of another"));
+  std::string raw = test::tiff_with(1, cv::Mat::zeros(kFewPixels, CV_8U));
+  EXPECT_EQ(problem(raw), "");
+  raw.replace(raw.find(test::bytes_of(274, 2) + test::bytes_of(3, 2)), 2, test::bytes_of(50706, 2));
+  EXPECT_THAT(problem(raw), HasSubstr("is a picture in DNG, which is not read"));
+  for (std::size_t size = 0; size < 150; ++size) EXPECT_NE(problem(raw.substr(0, size)), "");
+}
+
 TEST_F(PictureContents, IntegersOf32BitsAreNotCalledFloatingPoint) {
   const auto type_of = [&](int type) {
     return read_color(write("a.tif", test::encoded(".tif", cv::Mat::ones(kFewPixels, type))))
