@@ -29,7 +29,8 @@ at = data.find(b"elst") - 4
 size = struct.unpack(">I", data[at:at + 4])[0]
 edits = [(500, 0), (200, -1), (300, units * 7 // 10)]  # 0.5 s from 0 s on, 0.2 s of pause, 0.3 s from 0.7 s on
 content = b"".join(struct.pack(">IiHH", length, start, 1, 0) for length, start in edits)
-edited = bytearray(data[:at] + struct.pack(">I4sII", 16 + len(content), b"elst", 0, 3) + content + data[at + size:])
+head = struct.pack(">I4sII", 16 + len(content), b"elst", 0, 3)
+edited = bytearray(data[:at] + head + content + data[at + size:])
 for box in (b"edts", b"trak", b"moov"):  # hold it, behind the pictures
     place = edited.find(box) - 4
     old = struct.unpack(">I", edited[place:place + 4])[0]
@@ -37,7 +38,7 @@ for box in (b"edts", b"trak", b"moov"):  # hold it, behind the pictures
 open(sys.argv[1] + "/edited.mp4", "wb").write(edited)
 END
 seen=$(ffmpeg -v error -i "$folder/edited.mp4" -fps_mode passthrough -f rawvideo -pix_fmt gray - |
-  /usr/bin/python3 -c 'import sys; d = sys.stdin.buffer.read(); print(*[round(d[i] / 25.6) for i in range(0, len(d), 4096)])')
+  /usr/bin/python3 -c 'import sys; d = sys.stdin.buffer.read()[::64 * 64]; print(*[round(x / 25.6) for x in d])')
 echo "expected: frames 0 1 2 3 4, a pause, 7 8 9"
 echo "seen:     frames $seen"
 [ "$seen" = "0 1 2 3 4 0 1 7 8 9" ]

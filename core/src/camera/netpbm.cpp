@@ -51,11 +51,11 @@ bool Netpbm::is_cut_off() const {
 }
 
 cv::Mat decode_netpbm(const Netpbm& header) {
-  const bool wide = header.largest > 255, colour = header.kind == '6';
-  const std::uint64_t values = header.width * header.height * (colour ? 3 : 1);
+  const bool wide = header.largest > 255, color = header.kind == '6';
+  const std::uint64_t values = header.width * header.height * (color ? 3 : 1);
   if (values == 0 || header.is_cut_off()) return {};
   cv::Mat out(static_cast<int>(header.height), static_cast<int>(header.width),
-              CV_MAKETYPE(wide ? CV_16U : CV_8U, colour ? 3 : 1));
+              CV_MAKETYPE(wide ? CV_16U : CV_8U, color ? 3 : 1));
   const auto at = [&](std::size_t i) { return static_cast<unsigned char>(header.pixels[i]); };
   for (std::size_t i = 0; i < values; ++i) {
     if (wide)
@@ -64,7 +64,7 @@ cv::Mat decode_netpbm(const Netpbm& header) {
       out.ptr<std::uint8_t>()[i] = at(i);
   }
   if (!wide && header.largest != 255) out.convertTo(out, -1, 255.0 / header.largest);
-  if (colour) cv::cvtColor(out, out, cv::COLOR_RGB2BGR);
+  if (color) cv::cvtColor(out, out, cv::COLOR_RGB2BGR);
   return out;
 }
 

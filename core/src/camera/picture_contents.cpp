@@ -82,13 +82,13 @@ std::string name_of_profile(std::string_view profile) {
 }
 
 /// How a file says that its colours are meant.
-struct Colours {
+struct Colors {
   std::string profile;   ///< its name; empty without one
   bool is_srgb = false;  ///< it says so
   double gamma = 0;      ///< 0: unsaid
 };
 
-void take_colours(std::string_view name, std::string_view content, Colours& out) {
+void take_colors(std::string_view name, std::string_view content, Colors& out) {
   constexpr std::string_view kJpeg = "ICC_PROFILE\0"sv;
   constexpr std::size_t kLongest = 79;
   if (name == "iCCP") out.profile = content.substr(0, std::min(content.find('\0'), kLongest));
@@ -100,38 +100,38 @@ void take_colours(std::string_view name, std::string_view content, Colours& out)
 }
 
 /// Returns how colours are meant if not as sRGB; empty otherwise.
-std::string note_of(const Colours& colours) {
+std::string note_of(const Colors& colors) {
   constexpr double kSrgb = 0.45455, kNear = 0.01;
-  if (!colours.profile.empty())
-    return colours.profile.find("sRGB") != std::string::npos
+  if (!colors.profile.empty())
+    return colors.profile.find("sRGB") != std::string::npos
                ? ""
                : fmt::format("its colour profile '{}' is not applied: numbers are taken for sRGB",
-                             colours.profile);
-  if (colours.is_srgb || colours.gamma == 0 || std::abs(colours.gamma - kSrgb) < kNear) return {};
-  return fmt::format("its gamma of {:g} is not applied: numbers are taken for sRGB", colours.gamma);
+                             colors.profile);
+  if (colors.is_srgb || colors.gamma == 0 || std::abs(colors.gamma - kSrgb) < kNear) return {};
+  return fmt::format("its gamma of {:g} is not applied: numbers are taken for sRGB", colors.gamma);
 }
 
 /// Returns what a file holds beside the pixels that are read.
 std::string note_on(std::string_view bytes) {
   constexpr std::uint32_t kProfile = 34675;
   std::size_t pictures = pictures_of_tiff(bytes);
-  Colours colours;
+  Colors colors;
   for_each_part(bytes, [&](std::string_view name, std::string_view content) {
     pictures = std::max(pictures, pictures_of_part(name, content));
-    take_colours(name, content, colours);
+    take_colors(name, content, colors);
     return name != "IDAT";
   });
   if (const TiffDirectory tiff = tiff_directory(bytes); tiff.entry(kProfile) != 0)
-    colours.profile =
+    colors.profile =
         name_of_profile(bytes.substr(std::min<std::size_t>(tiff.value(kProfile), bytes.size())));
   if (is_copy(tiff_directory(bytes)))
     return "its first picture, which is read, is a smaller copy of another, as in the raw files of "
            "cameras; convert them to PNG";
-  const std::string of_colours = note_of(colours);
-  if (pictures < 2) return of_colours;
+  const std::string of_colors = note_of(colors);
+  if (pictures < 2) return of_colors;
   return fmt::format(
       "holds {} pictures, of which the first is read; write each into a file of its own{}{}",
-      pictures, of_colours.empty() ? "" : "; ", of_colours);
+      pictures, of_colors.empty() ? "" : "; ", of_colors);
 }
 
 /// Returns what a function says of the first file that can be read, behind its name.
