@@ -42,7 +42,7 @@ download() {
   command -v curl >/dev/null || command -v npm >/dev/null ||
     fail "needs npm or curl; install the Debian package curl"
   command -v curl >/dev/null &&
-    curl --fail --silent --location --retry 2 --connect-timeout 20 --output "$archive" \
+    curl --fail --silent --show-error --location --retry 2 --connect-timeout 20 --output "$archive" \
       "https://registry.npmjs.org/$package/-/$archive" && return
   fail "$package@$version cannot be downloaded from registry.npmjs.org; is the network there?"
 }

@@ -181,7 +181,8 @@ std::vector<std::string> notes_on(const PairFiles& files) {
     const std::vector<std::string> names = files_of(pattern);
     if (is_video(names[0])) continue;
     const std::vector<std::filesystem::path> paths(names.begin(), names.end());
-    for (std::string note : {orientation_note(paths), bits_note(paths, files.bits, "--bits")})
+    for (std::string note :
+         {orientation_note(paths), contents_note(paths), bits_note(paths, files.bits, "--bits")})
       if (!note.empty()) notes.push_back(std::move(note));
   }
   return notes;

@@ -1,5 +1,7 @@
 // Pictures through the loader, which never throws.
 
+#include <array>
+
 #include "hypotrack/image_file.hpp"
 #include "target.hpp"
 
@@ -9,6 +11,10 @@ HYPOTRACK_FUZZ_TARGET(picture, "picture") {
   const std::filesystem::path file = scratch_file("picture", bytes);
   const ReadImage color = read_color(file, 12), mask = read_mask(file),
                   depth = read_depth(file, 1e-3);
+  const std::array files{file};
+  for (const std::string& note : {orientation_note(files), contents_note(files), mask_note(files),
+                                  bits_note(files, std::nullopt)})
+    require(note.empty() || note.starts_with(file.string()), "notes name the file");
   for (const ReadImage* image : {&color, &mask, &depth})
     require(image->image.empty() != image->problem.empty(), "an image or a problem");
   if (!color.problem.empty()) throw DataError(color.problem);

@@ -24,10 +24,12 @@ struct ReadImage {
 };
 
 /// Reads an image as 8-bit BGR. Grey becomes three equal channels; alpha is dropped, not blended.
-/// 16-bit values are scaled so that 2^bits - 1 becomes 255. Floating-point images are problems.
+/// 16-bit values are scaled so that 2^bits - 1, or the smaller maximum of a PGM or PPM header,
+/// becomes 255. Floating-point images are problems.
 HYPOTRACK_API ReadImage read_color(const std::filesystem::path& file, int bits = 16);
 
-/// Reads a mask as 8-bit, one channel: 255 where any colour channel is non-zero.
+/// Reads a mask as 8-bit, one channel: 255 where any colour channel is non-zero. Transparent pixels
+/// are 0, unless all are transparent.
 HYPOTRACK_API ReadImage read_mask(const std::filesystem::path& file);
 
 /// Reads a 16-bit depth image of one channel as View::depth: 32-bit float metres, 0 where not
@@ -43,6 +45,13 @@ HYPOTRACK_API std::string orientation_note(std::span<const std::filesystem::path
 /// number in the advice: `bits:`.
 HYPOTRACK_API std::string bits_note(std::span<const std::filesystem::path> files,
                                     std::optional<int> bits, std::string_view setting = "bits:");
+
+/// Returns a note for the user on what the first file holds beside the pixels that are read:
+/// further pictures, a colour profile that is not sRGB. Empty if there is nothing.
+HYPOTRACK_API std::string contents_note(std::span<const std::filesystem::path> files);
+
+/// Returns a note for the user if masks are JPEG files, whose black is inexact.
+HYPOTRACK_API std::string mask_note(std::span<const std::filesystem::path> files);
 
 /// Returns a message if the image of `file` does not have its camera's size, else an empty text.
 HYPOTRACK_API std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "camera/netpbm.hpp"
 #include "camera/orientation.hpp"
 #include "camera/picture_header.hpp"
 #include "hypotrack/media.hpp"
@@ -24,8 +25,17 @@ bool is_truncated(std::string_view all) {
   return false;
 }
 
-/// Reads the bytes of a file. Returns a problem if they are none of a whole picture.
-std::string read_bytes(const std::filesystem::path& file, std::string& bytes) {
+/// Decodes bytes of a picture; returns an empty image if they are damaged.
+cv::Mat decode(std::string& bytes, const std::optional<Netpbm>& netpbm) {
+  if (netpbm && (netpbm->kind == '5' || netpbm->kind == '6')) return decode_netpbm(*netpbm);
+  if (netpbm) bytes += '\n';  // OpenCV needs it behind a number
+  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
+  return decode_image(raw, cv::IMREAD_UNCHANGED);
+}
+
+}  // namespace
+
+std::string read_picture_bytes(const std::filesystem::path& file, std::string& bytes) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return "is missing";
   if (!std::filesystem::is_regular_file(file, error)) return "is no file";
@@ -36,31 +46,41 @@ std::string read_bytes(const std::filesystem::path& file, std::string& bytes) {
   if (all->empty()) return "is empty";
   if (is_truncated(*all)) return "is cut off before its end";
   bytes = std::move(*all);
-  return problem_of_size(bytes);
+  if (std::string problem = problem_of_size(bytes); !problem.empty()) return problem;
+  const std::optional<Netpbm> netpbm = netpbm_of(bytes);
+  return netpbm && netpbm->is_cut_off() ? "is cut off before its end" : "";
 }
 
-}  // namespace
-
-ReadImage decode_upright(const std::filesystem::path& file) {
+DecodedFile decode_upright(const std::filesystem::path& file) {
+  DecodedFile read;
   std::string all;
-  if (const std::string problem = read_bytes(file, all); !problem.empty())
-    return {{}, fmt::format("{}: {}", file.string(), problem)};
-  ReadImage read;
+  if (const std::string problem = read_picture_bytes(file, all); !problem.empty()) {
+    read.problem = fmt::format("{}: {}", file.string(), problem);
+    return read;
+  }
+  const std::optional<Netpbm> netpbm = netpbm_of(all);
+  if (netpbm) read.white = netpbm->largest;
+  const UnreadFormat unread = unread_format(all);
   try {
-    const cv::Mat bytes(1, static_cast<int>(all.size()), CV_8UC1, all.data());
-    read.image = decode_image(bytes, cv::IMREAD_UNCHANGED);
+    if (!unread.misread) read.image = decode(all, netpbm);
     if (!read.image.empty()) turn_upright(read.image, all);
   } catch (const cv::Exception& e) {
     if (e.code == cv::Error::StsNoMem) throw;
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines
   }
-  if (read.image.empty()) read.problem = file.string() + ": is damaged or no image";
+  if (!read.image.empty()) return read;
+  read.problem = unread.name.empty()
+                     ? file.string() + ": is damaged or no image"
+                     : fmt::format(
+                           "{}: is a picture in {}, which is not read; convert it to PNG "
+                           "or JPEG",
+                           file.string(), unread.name);
   return read;
 }
 
 int file_orientation(const std::filesystem::path& file) {
   std::string bytes;
-  return read_bytes(file, bytes).empty() ? orientation_of(bytes) : 0;
+  return read_picture_bytes(file, bytes).empty() ? orientation_of(bytes) : 0;
 }
 
 }  // namespace hypotrack::internal

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
 #include <vector>
 
 #include "camera/orientation.hpp"
@@ -24,6 +26,14 @@ ReadImage within_memory(const std::filesystem::path& file, const Read& read) {
   } catch (const std::bad_alloc&) {
   }
   return {{}, file.string() + ": there is not enough memory to decode it"};
+}
+
+/// Returns the words for the type of a file's pixels.
+std::string_view words_for(int depth) {
+  constexpr std::array<std::string_view, 8> kPixels = {
+      "8-bit",          "signed 8-bit",   "16-bit",         "signed 16-bit",
+      "32-bit integer", "floating-point", "floating-point", "floating-point"};
+  return kPixels.at(static_cast<std::size_t>(depth));
 }
 
 /// Converts an image to three channels of the same depth.
@@ -49,15 +59,18 @@ cv::Mat to_bgr(const cv::Mat& image) {
 
 ReadImage read_color(const std::filesystem::path& file, int bits) {
   return within_memory(file, [&]() -> ReadImage {
-    ReadImage read = decode_upright(file);
+    DecodedFile read = decode_upright(file);
     if (!read.problem.empty()) return read;
     if (read.image.depth() != CV_8U && read.image.depth() != CV_16U) {
-      return {{}, file.string() + ": has floating-point pixels; expected 8 or 16 bits"};
+      return {{},
+              fmt::format("{}: has {} pixels; expected 8 or 16 bits", file.string(),
+                          words_for(read.image.depth()))};
     }
     read.image = to_bgr(read.image);
     if (read.image.depth() == CV_16U) {
-      // The largest value of that many bits becomes 255.
-      read.image.convertTo(read.image, CV_8U, 255.0 / (std::exp2(bits) - 1));
+      const double given = std::exp2(bits) - 1;
+      const double white = read.white ? std::min<double>(*read.white, given) : given;
+      read.image.convertTo(read.image, CV_8U, 255 / white);
     }
     return read;
   });
@@ -72,6 +85,10 @@ ReadImage read_mask(const std::filesystem::path& file) {
     cv::Mat any = channels[0] != 0;
     any |= channels[1] != 0;
     any |= channels[2] != 0;
+    if (const int count = read.image.channels(); count % 2 == 0) {
+      cv::extractChannel(read.image, channels[0], count - 1);
+      if (cv::countNonZero(channels[0]) > 0) any &= channels[0] != 0;
+    }
     read.image = any;
     return read;
   });

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,8 +22,16 @@ std::string_view turn_of(int orientation);
 /// Turns a decoded file as viewers do. Decoders turn TIFF files themselves, others not.
 void turn_upright(cv::Mat& image, std::string_view bytes);
 
+/// Pixels of a file as stored.
+struct DecodedFile : ReadImage {
+  std::optional<int> white;  ///< largest value of 16 bits, if the format says it
+};
+
 /// Decodes a file's pixels as stored, and turns them as viewers do. Throws if memory lacks.
-ReadImage decode_upright(const std::filesystem::path& file);
+DecodedFile decode_upright(const std::filesystem::path& file);
+
+/// Reads a file's bytes. Returns a problem if they are none of a whole picture.
+std::string read_picture_bytes(const std::filesystem::path& file, std::string& bytes);
 
 /// Returns the orientation_of() a file; 0 if it cannot be read.
 int file_orientation(const std::filesystem::path& file);

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+
+#include "camera/netpbm.hpp"
+#include "camera/picture_container.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -51,8 +55,15 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
 std::optional<Size> size_in_header(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG\r\n")) return png_size(bytes);
   if (bytes.starts_with("\xFF\xD8\xFF")) return jpeg_size(bytes);
+  if (const auto netpbm = netpbm_of(bytes)) return Size{netpbm->width, netpbm->height};
   return std::nullopt;
 }
+
+/// How files of a format begin.
+struct Beginning {
+  std::size_t at = 0;
+  std::string_view bytes, format;
+};
 
 }  // namespace
 
@@ -61,6 +72,34 @@ std::string problem_of_size(std::string_view bytes) {
   if (!size || size->width * size->height <= kMostPixels) return {};
   return fmt::format("has {}x{} pixels; at most {} are read", size->width, size->height,
                      kMostPixels);
+}
+
+UnreadFormat unread_format(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::uint32_t kDngVersion = 50706;
+  if (bytes.starts_with("P7\n")) return {"PAM", true};  // exchanges red and blue
+  if (is_tiff(bytes) && bytes.size() > 10 && bytes.substr(8, 2) == "CR")
+    return {"CR2", true};  // takes the preview
+  if (tiff_directory(bytes).entry(kDngVersion) != 0) return {"DNG", true};
+  constexpr std::array<Beginning, 15> kUnread = {{{4, "ftyphei", "HEIF"},
+                                                  {4, "ftypmif1", "HEIF"},
+                                                  {4, "ftypmsf1", "HEIF"},
+                                                  {4, "ftypavi", "AVIF"},
+                                                  {4, "ftypcrx", "CR3"},
+                                                  {0, "\xFF\x0A", "JPEG XL"},
+                                                  {0, "\0\0\0\x0CJXL "sv, "JPEG XL"},
+                                                  {0, "GIF8", "GIF"},
+                                                  {0, "v/1\x01", "OpenEXR"},
+                                                  {0, "8BPS", "PSD"},
+                                                  {0, "DDS ", "DDS"},
+                                                  {0, "\xABKTX", "KTX"},
+                                                  {0, "%PDF", "PDF"},
+                                                  {0, "<svg", "SVG"},
+                                                  {0, "FUJIFILMCCD-RAW", "RAF"}}};
+  for (const Beginning& one : kUnread)
+    if (bytes.size() > one.at && bytes.substr(one.at).starts_with(one.bytes))
+      return {one.format, false};
+  return {};
 }
 
 }  // namespace hypotrack::internal

@@ -18,6 +18,7 @@ using Files = std::span<const std::filesystem::path>;
 struct Values {
   std::filesystem::path first;  ///< picture that can be read
   int depth = CV_8U;
+  bool said = false;  ///< by the format, how large values may be
   int pictures = 0;
   double largest = 0;
 };
@@ -37,9 +38,9 @@ double largest_value(const cv::Mat& image) {
 }
 
 /// Returns a picture, empty if it cannot be read.
-cv::Mat picture_of(const std::filesystem::path& file) {
+DecodedFile picture_of(const std::filesystem::path& file) {
   try {
-    return decode_upright(file).image;
+    return decode_upright(file);
   } catch (const std::exception&) {  // memory; the frame says so
     return {};
   }
@@ -49,10 +50,12 @@ Values values_of(Files files) {
   constexpr int kEnough = 5;
   Values values;
   for (const std::filesystem::path& file : files) {
-    const cv::Mat picture = picture_of(file);
+    const DecodedFile decoded = picture_of(file);
+    const cv::Mat& picture = decoded.image;
     if (picture.empty()) continue;
     if (values.pictures++ == 0) {
       values.first = file;
+      values.said = decoded.white && *decoded.white < 65535;
       values.depth = picture.depth();
     }
     if (values.depth != CV_16U || picture.depth() != CV_16U) break;
@@ -109,7 +112,7 @@ std::string bits_note(Files files, std::optional<int> bits, std::string_view set
                               file, setting, *bits)
                 : "";
   const int needed = usual_bits(values.largest);
-  if (!bits && needed < 16 && values.largest > 0)
+  if (!bits && needed < 16 && values.largest > 0 && !values.said)
     return fmt::format(
         "{}: no value of the first {} exceeds {}, so that they look like {} bits in 16. They are "
         "read as 16 bits, {} times darker: set `{} {}`, or `{} 16` if the scene is that dark",

@@ -18,7 +18,8 @@ namespace {
 
 cv::Mat read_texture(const std::filesystem::path& file, const std::string& where) {
   cv::Mat picture;
-  if (std::filesystem::is_regular_file(file)) picture = read_image(file.string(), cv::IMREAD_COLOR);
+  constexpr int kAsStored = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION;
+  if (std::filesystem::is_regular_file(file)) picture = read_image(file.string(), kAsStored);
   if (picture.empty())
     throw DataError(
         fmt::format("{}: its texture {} is missing or no image that OpenCV reads; name "

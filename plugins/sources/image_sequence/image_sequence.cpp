@@ -150,8 +150,10 @@ class ImageSequence : public Source {
   void note_pictures() {
     for (std::size_t i = 0; i < layers_.size(); ++i) {
       notes_.push_back(orientation_note(lists_[i]));
-      if (layers_[i].content == Content::color)
-        notes_.push_back(bits_note(lists_[i], params_.bits));
+      if (layers_[i].content == Content::mask) notes_.push_back(mask_note(lists_[i]));
+      if (layers_[i].content != Content::color) continue;
+      notes_.push_back(contents_note(lists_[i]));
+      notes_.push_back(bits_note(lists_[i], params_.bits));
     }
     if (!params_.timestamps.given()) notes_.push_back(note_on_names(lists_[0]));
     std::erase(notes_, "");

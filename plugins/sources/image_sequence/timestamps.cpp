@@ -69,11 +69,17 @@ std::vector<Line> lines_of(std::string_view text) {
 
 bool is_comment(std::string_view line) { return line.front() == '#'; }
 
-/// Returns the cells of a line that commas, semicolons or tabs separate.
-std::vector<std::string> cells_of(std::string_view line) {
+/// Returns what separates the cells of a table, by its header: a decimal comma separates none.
+char separator_of(std::string_view header) {
+  for (const char one : {';', '\t'})
+    if (header.find(one) != std::string_view::npos) return one;
+  return ',';
+}
+
+std::vector<std::string> cells_of(std::string_view line, char separator) {
   std::vector<std::string> cells;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find_first_of(",;\t", begin), line.size());
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
     cells.emplace_back(trimmed(line.substr(begin, end - begin), " \t\r\""));
     begin = end + 1;
   }
@@ -83,21 +89,44 @@ std::vector<std::string> cells_of(std::string_view line) {
 /// The column of a table that has the times.
 struct Column {
   std::size_t index = 0;
+  std::size_t count = 0;  ///< of all columns
+  char separator = ',';
   std::size_t first_line = 0;  ///< of the lines, behind the header
 };
 
 Column find_column(const std::vector<Line>& lines, const TimestampSettings& settings) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::vector<std::string> cells = cells_of(trimmed(lines[i].text, "# \t"));
+    const std::string_view header = trimmed(lines[i].text, "# \t");
+    const char separator = separator_of(header);
+    const std::vector<std::string> cells = cells_of(header, separator);
     const auto found = std::ranges::find(cells, settings.column);
-    if (found != cells.end()) return {static_cast<std::size_t>(found - cells.begin()), i + 1};
+    if (found != cells.end())
+      return {static_cast<std::size_t>(found - cells.begin()), cells.size(), separator, i + 1};
     if (!is_comment(lines[i].text)) break;
   }
-  const std::vector<std::string> names = cells_of(trimmed(lines.front().text, "# \t"));
+  const std::string_view first = trimmed(lines.front().text, "# \t");
+  const std::vector<std::string> names = cells_of(first, separator_of(first));
   throw DataError(fmt::format("{}:{}: there is no column '{}'; expected one of {}{}",
                               settings.file.string(), lines.front().number, settings.column,
                               printable(fmt::format("{}", fmt::join(names, ", "))),
                               did_you_mean(settings.column, names)));
+}
+
+/// Returns the cell of a row that has the time. Throws DataError if the row does not fit the
+/// header.
+std::string cell_of(std::string_view row, const Column& column, std::string_view name,
+                    const std::string& where) {
+  std::vector<std::string> cells = cells_of(row, column.separator);
+  if (cells.size() <= column.index)
+    throw DataError(fmt::format("{}: has {} columns; expected '{}' in column {}", where,
+                                cells.size(), name, column.index + 1));
+  while (cells.size() > column.count && cells.back().empty()) cells.pop_back();
+  if (cells.size() > column.count)
+    throw DataError(fmt::format(
+        "{}: has {} columns, its header {}; expected as many: write numbers with a point, and no "
+        "commas within texts",
+        where, cells.size(), column.count));
+  return std::move(cells[column.index]);
 }
 
 /// Throws DataError if a line is the header or a row of a table.
@@ -105,7 +134,7 @@ void refuse_table(std::string_view line, const std::string& where) {
   double number = 0;
   const bool is_number = std::from_chars(line.data(), line.data() + line.size(), number).ec !=
                          std::errc::invalid_argument;
-  if (is_number && cells_of(line).size() == 1) return;
+  if (is_number && line.find_first_of(",;\t") == std::string_view::npos) return;
   throw DataError(
       fmt::format("{}: '{}' is no number alone; expected one, or the name of a table's column in "
                   "timestamps.column",
@@ -204,12 +233,7 @@ std::vector<Stamp> read_stamps(const TimestampSettings& settings) {
     const std::string where = fmt::format("{}:{}", settings.file.string(), line.number);
     std::string cell(line.text);
     if (table) {
-      std::vector<std::string> cells = cells_of(line.text);
-      if (cells.size() <= column.index) {
-        throw DataError(fmt::format("{}: has {} columns; expected '{}' in column {}", where,
-                                    cells.size(), settings.column, column.index + 1));
-      }
-      cell = std::move(cells[column.index]);
+      cell = cell_of(line.text, column, settings.column, where);
     } else {
       refuse_table(line.text, where);
     }

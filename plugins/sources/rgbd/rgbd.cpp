@@ -154,8 +154,8 @@ class Rgbd final : public Source {
       colors.push_back(color_[i].file);
       depths.push_back(depth_file(i));
     }
-    for (std::string note :
-         {orientation_note(colors), orientation_note(depths), bits_note(colors, params_.bits)})
+    for (std::string note : {orientation_note(colors), orientation_note(depths),
+                             contents_note(colors), bits_note(colors, params_.bits)})
       if (!note.empty()) notes_.push_back(std::move(note));
   }
 

@@ -94,8 +94,8 @@ TEST_F(UnusedKeys, OfHypotracksOwnFormAreNamed) {
 
 TEST_F(UnusedKeys, OfOpenCvPairsAreNamed) {
   EXPECT_THAT(notes_on(std::string(kPlainPair) + kPlainPose), IsEmpty());
-  EXPECT_THAT(notes_on(std::string(kPlainPair) + kPlainPose + "Q: [1]\nxi1: [0.5]\n"),
-              names("xi1 (not understood); Q (rectification, which follows from R and T)"));
+  EXPECT_THAT(notes_on(std::string(kPlainPair) + kPlainPose + "Q: [1]\ntint1: [0.5]\n"),
+              names("tint1 (not understood); Q (rectification, which follows from R and T)"));
   EXPECT_THAT(notes_on(with(kPlainPair, "dt: d,", "dt: d, units: px,") + std::string(kPlainPose)),
               names("M1.units (not understood)"));
   CalibrationSettings settings = file("file", std::string(kPlainPair) + kPlainPose);
@@ -108,12 +108,22 @@ TEST_F(UnusedKeys, OfOpenCvPairsAreNamed) {
 
 TEST_F(UnusedKeys, OfOpenCvCamerasAreNamed) {
   EXPECT_THAT(notes_on(kPlainCamera), IsEmpty());
-  EXPECT_THAT(notes_on(kPlainCamera + std::string("xi: 0.5\n")), names("xi (not understood)"));
+  EXPECT_THAT(notes_on(kPlainCamera + std::string("tint: 0.5\n")), names("tint (not understood)"));
   CalibrationSettings settings = file("file", kPlainCamera);
   settings.second = write("second", kPlainCamera + std::string("tint: 2\n"));
   settings.extrinsics = write("pose", kPlainPose + std::string("S: 1\n"));
   EXPECT_THAT(read_calibration(settings).notes,
               ElementsAre(HasSubstr("second: not used: tint"), HasSubstr("pose: not used: S")));
+}
+
+TEST_F(UnusedKeys, OfAnOmnidirectionalLensAreErrors) {
+  const std::string pair = std::string(kPlainPair) + kPlainPose;
+  for (const std::string& text :
+       {kPlainCamera + std::string("xi: 0.5\n"), pair + "xi1: [0.5]\n", pair + "xi_2: 0.5\n"})
+    EXPECT_THAT([&] { notes_on(text); }, testing::ThrowsMessage<DataError>(AllOf(
+                                             HasSubstr("xi is of OpenCV's omnidirectional lens"),
+                                             HasSubstr("calibrate with cv::fisheye"))))
+        << text;
 }
 
 TEST_F(UnusedKeys, OfKalibrAreNamed) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <fstream>
 #include <opencv2/core.hpp>
+#include <sstream>
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
@@ -83,6 +84,46 @@ TEST_F(VideoFiles, LeaveOutFramesThatAnEditListDoesNotShow) {
   EXPECT_EQ(video->info().times[0], 0);
   EXPECT_NEAR(read(*video, 0).at<cv::Vec3b>(20, 20)[0], 44 * 255 / 219.0, 3);
   EXPECT_EQ(video->info().problem_of_end, "");
+}
+
+/// Puts edits, of milliseconds and units of the video, into an MP4 file, whose boxes follow the
+/// data.
+void edit(const std::string& file, const std::vector<std::array<std::uint32_t, 2>>& edits) {
+  const auto number = [](std::uint32_t value) {
+    std::string out;
+    for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift);
+    return out;
+  };
+  std::ostringstream whole;
+  whole << std::ifstream(file, std::ios::binary).rdbuf();
+  std::string bytes = whole.str(), list = "elst" + number(0) + number(edits.size());
+  for (const auto& [length, start] : edits) list += number(length) + number(start) + number(65536);
+  const auto size_at = [&](std::size_t at) {
+    std::uint32_t size = 0;
+    for (const char c : bytes.substr(at, 4)) size = size << 8 | static_cast<unsigned char>(c);
+    return size;
+  };
+  const std::size_t at = bytes.find("elst") - 4, old = size_at(at);
+  bytes.replace(at, old, number(list.size() + 4) + list);
+  for (const char* box : {"edts", "trak", "moov"}) {
+    const std::size_t place = bytes.find(box) - 4;
+    bytes.replace(place, 4, number(size_at(place) + list.size() + 4 - old));
+  }
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+TEST_F(VideoFiles, SayThatAnEditListRepeatsFrames) {
+  const auto of = [&](const std::vector<std::array<std::uint32_t, 2>>& edits) {
+    test::write_video(file("edits.mp4"), {.tick = {1, 1000}, .times = every(100, 10)});
+    edit(file("edits.mp4"), edits);
+    return open_video(file("edits.mp4"));
+  };
+  const auto parts = of({{500, 0}, {300, 700 * 16}});
+  EXPECT_EQ(parts->info().times.size(), 8);
+  EXPECT_THAT(parts->info().notes, Not(Contains(HasSubstr("edit list"))));
+  // FFmpeg takes a pause for the beginning.
+  EXPECT_THAT(of({{500, 0}, {200, 0xFFFFFFFF}, {300, 700 * 16}})->info().notes,
+              Contains(HasSubstr("edits.mp4: its edit list shows 2 frames twice")));
 }
 
 TEST_F(VideoFiles, BeginAtTheirOwnTimeAndEndWhereTheyEnd) {

@@ -51,6 +51,21 @@ TEST_F(GltfSupport, OptionalExtensionsThatAreNotHonouredAreNamed) {
                                                        "EXT_odd")));
 }
 
+TEST_F(GltfSupport, KeysAndExtensionsOfAllObjectsAreNamed) {
+  GlbWriter writer = plain();
+  Json& json = writer.json();
+  json["nodes"][0]["odd"] = json["nodes"][0]["extras"] = 1;
+  json["nodes"][0]["extensions"]["VENDOR_unlisted"] = Json::object();
+  json["meshes"][0]["primitives"][0]["odd"] = 1;
+  json["accessors"][0]["odder"] = 1;
+  json["materials"] = {{{"shine", 1}, {"pbrMetallicRoughness", {{"glow", 1}}}}};
+  EXPECT_THAT(
+      read(writer).notes,
+      ElementsAre(EndsWith("glTF extensions that are not honoured: VENDOR_unlisted"),
+                  EndsWith("keys that are not read: accessors.odder, materials.shine, nodes.odd, "
+                           "pbrMetallicRoughness.glow, primitives.odd")));
+}
+
 TEST_F(GltfSupport, WhatIsLeftOutIsCounted) {
   GlbWriter writer = plain();
   Json& json = writer.json();
@@ -181,9 +196,46 @@ TEST_F(GltfSupport, AMeshThatASkinAndANodeShareIsReadForEach) {
   EXPECT_THAT(error(writer), HasSubstr("no bone holds vertex 0 of mesh 'body'"));
 }
 
+TEST_F(GltfSupport, MeshesWithoutWeightsMoveWithTheBoneAboveThem) {
+  GlbWriter writer = skinned([](GlbWriter& to, Json& attributes) {
+    const std::vector<std::array<std::uint8_t, 4>> bones(4);
+    const std::vector<std::array<float, 4>> ones(4, {1, 0, 0, 0});
+    attributes["JOINTS_0"] = to.add(bones, "VEC4", kUnsignedByte);
+    attributes["WEIGHTS_0"] = to.add(ones, "VEC4", kFloat);
+  });
+  Json& json = writer.json();
+  Json rigid = json["meshes"][0]["primitives"][0];
+  for (const char* key : {"JOINTS_0", "WEIGHTS_0"}) rigid["attributes"].erase(key);
+  json["meshes"].push_back({{"name", "ring"}, {"primitives", {rigid}}});
+  json["nodes"].push_back({{"name", "ring"}, {"mesh", 1}, {"translation", {0, 0, 0.5}}});
+  json["scenes"][0]["nodes"].push_back(3);
+  EXPECT_THAT(error(writer), AllOf(HasSubstr("no bone holds vertex 0 of mesh 'ring'"),
+                                   HasSubstr("the mesh has no weights, though the file has bones: "
+                                             "give it the weight 1 of one bone, or take it out")));
+
+  // Below a bone it moves with the bone, wherever the file poses that.
+  json["scenes"][0]["nodes"].erase(2);
+  json["nodes"][2]["children"] = {3};
+  const std::array<float, 16> root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  std::array<float, 16> tip = root;
+  tip[13] = -1;  // its bind place is 1 along y
+  json["skins"][0]["inverseBindMatrices"] = writer.add(std::vector{root, tip}, "MAT4", kFloat);
+  for (const double y : {1.0, 3.0}) {
+    json["nodes"][2]["translation"] = {0, y, 0};
+    const ImportedMesh imported = read(writer);
+    ASSERT_EQ(imported.mesh.vertices.cols(), 8);
+    EXPECT_TRUE(imported.mesh.vertices.col(4).isApprox(Eigen::Vector3f(0, 1, 0.5f))) << y;
+    EXPECT_EQ(imported.mesh.bone_weights(0, 4), 1);
+    const auto bone = static_cast<std::size_t>(imported.mesh.bone_indices(0, 4));
+    EXPECT_EQ(imported.bones[bone].name, "tip");
+  }
+}
+
 TEST_F(GltfSupport, OtherVersionsAndDeepJsonAreRefused) {
   EXPECT_THAT(import_error(file("a.gltf", R"({"asset": {"version": "1.0"}, "meshes": {}})")),
               HasSubstr("this is glTF version '1.0'; hypotrack reads version 2"));
+  EXPECT_THAT(import_error(file("a.gltf", R"({"asset": {"version": "2.0", "minVersion": "2.1"}})")),
+              HasSubstr("it needs a reader of glTF version '2.1'; hypotrack reads 2.0"));
   const std::string deep = std::string(100'000, '[') + std::string(100'000, ']');
   EXPECT_THAT(
       import_error(file("a.gltf", R"({"asset": {"version": "2.0"}, "extras": )" + deep + "}")),

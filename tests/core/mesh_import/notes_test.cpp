@@ -45,6 +45,15 @@ TEST_F(MeshNotes, ObjNamesItsUnknownStatementsWithTheirFirstLine) {
                           "line 12"));
 }
 
+TEST_F(MeshNotes, ObjNamesFacesWithoutAMaterial) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
+  const std::string faces = "f 1 3 2\nf 1 2 4\n", more = "f 1 4 3\nf 2 3 4\n";
+  EXPECT_THAT(notes("none.obj", points + faces + more), IsEmpty());
+  EXPECT_THAT(
+      notes("late.obj", points + faces + "usemtl red\n" + more),
+      testing::Contains(StartsWith("faces before the first `usemtl` (2) have no material")));
+}
+
 TEST_F(MeshNotes, PlyNamesItsUnknownElementsAndProperties) {
   EXPECT_THAT(notes("a.ply",
                     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"

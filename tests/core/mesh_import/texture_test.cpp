@@ -5,6 +5,7 @@
 #include "hypotrack/media.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "mesh_files.hpp"
+#include "oriented_pictures.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -85,6 +86,27 @@ TEST_F(MeshTexture, OptionReplacesTheFilesOwn) {
   file("mine.png", picture());
   const auto path = file("a.glb", glb(content));
   EXPECT_EQ(import_mesh(path, {.texture = folder_.path() / "mine.png"}).mesh.texture.rows, 4);
+}
+
+TEST_F(MeshTexture, ExifOrientationTurnsNothingAndIsNamed) {
+  // Programs that draw meshes use pictures as they are stored, and browsers turn them.
+  const cv::Vec3b red(0, 0, 255);
+  GlbContent content = textured();
+  content.image = png_with(exif(3), picture());
+  ImportedMesh imported = import_mesh(file("a.glb", glb(content)));
+  EXPECT_EQ(imported.mesh.texture.at<cv::Vec3b>(0, 0), red);
+  EXPECT_THAT(imported.notes, ::testing::ElementsAre(AllOf(HasSubstr("the texture inside the file"),
+                                                           HasSubstr("its EXIF orientation is 3"),
+                                                           HasSubstr("as it is stored"))));
+
+  cv::Mat halves(16, 16, CV_8UC3, cv::Scalar(0, 0, 255));
+  halves.rowRange(8, 16).setTo(cv::Scalar(255, 0, 0));
+  file("skin.jpg", jpeg_with(exif(3), encoded(".jpg", halves)));
+  content.image.clear();
+  content.image_uri = "skin.jpg";
+  imported = import_mesh(file("b.glb", glb(content)));
+  EXPECT_GT(imported.mesh.texture.at<cv::Vec3b>(2, 2)[2], 200) << "red";
+  EXPECT_THAT(imported.notes, ::testing::ElementsAre(HasSubstr("skin.jpg")));
 }
 
 TEST_F(MeshTexture, DamagedEmbeddedImageIsAnError) {

@@ -146,6 +146,16 @@ TEST_F(ImageTimestamps, SayWhichColumnIsWrong) {
               ThrowsMessage<DataError>(HasSubstr("times.csv:3: '' is no time")));
 }
 
+TEST_F(ImageTimestamps, AreNotCutAtDecimalCommas) {
+  write_pairs(3);
+  EXPECT_THAT(reading("frame;time\n0;1,25\n1;2,5\n2;4,75\n", "column: time, unit: s"),
+              ThrowsMessage<DataError>(HasSubstr("times.csv:2: '1,25' is no time")));
+  EXPECT_THAT(reading("time\n1,25\n2,5\n4,75\n", "column: time, unit: s"),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("times.csv:2: has 2 columns, its header 1"),
+                                             HasSubstr("write numbers with a point"))));
+  EXPECT_NO_THROW(reading("a,time\n\"0\",1,\n1,2,\n2,3,\n", "column: time, unit: s")());
+}
+
 TEST_F(ImageTimestamps, SayThatTheUnitIsWrong) {
   write_pairs(3);
   EXPECT_THAT(reading("0\n33\n66\n"),

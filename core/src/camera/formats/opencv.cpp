@@ -47,6 +47,18 @@ KeyPaths keys_of_the_work() {
           "dist_coeffs_std_dev/**"};
 }
 
+/// Throws DataError if a file is of cv::omnidir, whose coefficients mean another lens.
+void expect_no_omnidirectional_lens(const ConfigNode& file) {
+  for (const char* key : {"xi", "xi1", "xi2", "xi_1", "xi_2"}) {
+    const ConfigNode xi = file.get(key);
+    if (!xi.defined()) continue;
+    throw DataError(
+        fmt::format("{}: xi is of OpenCV's omnidirectional lens, which is not read; expected the "
+                    "lens of cv::calibrateCamera or cv::fisheye: calibrate with cv::fisheye",
+                    xi.where()));
+  }
+}
+
 /// Notes what a file with R and T has beside them.
 void note_unused_of_pose(const ConfigNode& pose, const std::string& file_name,
                          std::vector<std::string>& notes) {
@@ -80,6 +92,7 @@ void read_opencv_lens(const ConfigNode& file, std::initializer_list<std::string_
 Camera read_one(const ConfigNode& file, const CalibrationSettings& settings,
                 const std::string& file_name, std::vector<std::string>& notes) {
   Camera camera;
+  expect_no_omnidirectional_lens(file);
   read_intrinsics(first_of(file, kOneMatrix), camera);
   read_opencv_lens(file, kOneLens, model_of(file, settings), camera, notes);
   KeyPaths used = keys_of_the_work();
@@ -117,6 +130,7 @@ std::vector<NamedCamera> read_opencv_stereo(const ConfigNode& file,
                                             const CalibrationSettings& settings,
                                             std::vector<std::string>& notes) {
   std::vector<NamedCamera> cameras{{"1", {}}, {"2", {}}};
+  expect_no_omnidirectional_lens(file);
   constexpr std::string_view kNeedsBoth = "expected M1, D1, M2, D2 as stereo_calib writes them";
   read_intrinsics(required(file, {"M1", "K1", "cameraMatrix1"}, kNeedsBoth), cameras[0].camera);
   read_intrinsics(required(file, {"M2", "K2", "cameraMatrix2"}, kNeedsBoth), cameras[1].camera);

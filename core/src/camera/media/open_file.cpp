@@ -41,6 +41,11 @@ class OpenedFile final : public VideoFile {
     if (first_ > 0)
       notes.push_back(fmt::format(
           "begins {} frames before the first that can be decoded; they are left out", first_));
+    if (packets_.repeated > 0)
+      notes.push_back(fmt::format(
+          "its edit list shows {} frames twice, as FFmpeg does where the list asks for a pause: "
+          "export it without edits",
+          packets_.repeated));
     converter_.emplace(video, *frame_, colors, notes);
     info_.width = on_its_side(converter_->turn()) ? frame_->height : frame_->width;
     info_.height = on_its_side(converter_->turn()) ? frame_->width : frame_->height;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -149,6 +150,8 @@ PacketTimes read_packet_times(Demuxer& video) {
   Read read;
   std::vector<std::int64_t> decoding_times;
   SecondFields second_fields(video);
+  const bool edited = container_of(video).starts_with("mov");
+  std::set<std::int64_t> places;  // of packets in the file
   const Ffmpeg<AVPacket> packet(av_packet_alloc());
   int result = 0;
   while (out.shown.size() < kMostPictures &&
@@ -162,6 +165,7 @@ PacketTimes read_packet_times(Demuxer& video) {
     if (counts && !second && !(packet->flags & AV_PKT_FLAG_DISCARD) && !is_hidden(*packet, codec)) {
       out.shown.push_back({packet->pts, (packet->flags & AV_PKT_FLAG_CORRUPT) != 0});
       decoding_times.push_back(packet->dts);
+      out.repeated += edited && !places.insert(packet->pos).second ? 1 : 0;
       read.end = std::max(read.end, packet->pts + packet->duration);
       read.last_start = std::max(read.last_start, packet->dts);
     }

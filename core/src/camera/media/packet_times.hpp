@@ -20,6 +20,7 @@ struct PacketTimes {
   std::vector<ShownPicture> shown;  ///< by time, which grows
   bool numbered = false;            ///< there are no times at all: these are numbers
   bool presented = true;            ///< the packets say when; false: frames keep their order only
+  std::size_t repeated = 0;         ///< pictures that an edit list shows once more
   std::string problem_of_end;       ///< note for the user if data are missing at the end
 };
 

@@ -163,7 +163,7 @@ class Painter {
 
 void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
                      Mesh& mesh, std::vector<std::string>& notes) {
-  const Looks looks(file, soup, kept);
+  const Looks looks(file, soup, kept, notes);
   mesh.color = looks.color_of_most();
   if (looks.are_one_color()) {
     mesh.uv.resize(2, 0);

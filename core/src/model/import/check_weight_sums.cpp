@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "model/import/steps.hpp"
 
@@ -25,10 +27,13 @@ void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, co
       sum += static_cast<double>(influence.weight);
     }
     if (sum <= 0) {
-      file.fail(
-          fmt::format("no bone holds vertex {} of mesh '{}' (weights that are NaN, zero, "
-                      "negative or of unknown bones count as none)",
-                      i, part.name));
+      const auto of_part = std::span(soup.influences).subspan(first, used.size());
+      const bool rigid = std::ranges::all_of(of_part, [](const auto& all) { return all.empty(); });
+      file.fail(fmt::format(
+          "no bone holds vertex {} of mesh '{}' ({})", i, part.name,
+          rigid ? "the mesh has no weights, though the file has bones: give it the weight 1 of one "
+                  "bone, or take it out of the file"
+                : "weights that are NaN, zero, negative or of unknown bones count as none"));
     }
     if (std::abs(sum - 1) > kWeightSumTolerance) {
       file.fail(

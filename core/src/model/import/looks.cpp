@@ -41,7 +41,8 @@ Eigen::Vector3f material_color(const MeshFile& file, const MeshPart& part) {
   return color.cwiseMax(0.0f).cwiseMin(1.0f);
 }
 
-Looks::Looks(const MeshFile& file, const Soup& soup, const std::vector<int>& kept)
+Looks::Looks(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
+             std::vector<std::string>& notes)
     : file_(file), soup_(soup), looks_(file.scene.meshes.size()) {
   std::vector<std::optional<Rgb>> first(looks_.size());
   for (const int triangle : kept) {
@@ -50,7 +51,7 @@ Looks::Looks(const MeshFile& file, const Soup& soup, const std::vector<int>& kep
     for (int k = 0; k < 3; ++k) looks_[part].painted |= color_of(triangle, k) != *first[part];
     ++triangles_[part];
   }
-  for (const auto& [part, count] : triangles_) set_look(part, *first[part]);
+  for (const auto& [part, count] : triangles_) set_look(part, *first[part], notes);
 }
 
 const Material* Looks::material_of(const MeshPart& part) const {
@@ -58,7 +59,7 @@ const Material* Looks::material_of(const MeshPart& part) const {
   return part.material < all.size() ? &all[part.material] : nullptr;
 }
 
-void Looks::set_look(std::size_t index, const Rgb& first) {
+void Looks::set_look(std::size_t index, const Rgb& first, std::vector<std::string>& notes) {
   const MeshPart& part = file_.scene.meshes[index];
   Look& look = looks_[index];
   const Material* material = material_of(part);
@@ -74,7 +75,7 @@ void Looks::set_look(std::size_t index, const Rgb& first) {
     const Eigen::Vector3f of_points =
         look.painted ? Eigen::Vector3f::Ones()
                      : (own / 255).unaryExpr([](float c) { return srgb::linear(c); }).eval();
-    look.picture = picture_of(material, of_points);
+    look.picture = picture_of(material, of_points, notes);
     return;
   }
   if (!part.colors.empty()) {
@@ -85,7 +86,8 @@ void Looks::set_look(std::size_t index, const Rgb& first) {
 }
 
 /// Returns the index of a material's picture, with its factor and that of the points' colour.
-std::size_t Looks::picture_of(const Material* material, const Eigen::Vector3f& of_points) {
+std::size_t Looks::picture_of(const Material* material, const Eigen::Vector3f& of_points,
+                              std::vector<std::string>& notes) {
   const bool replaced = !file_.options.texture.empty();
   const Material plain = material ? *material : Material();
   Eigen::Vector3f factor = Eigen::Vector3f::Ones();
@@ -95,8 +97,8 @@ std::size_t Looks::picture_of(const Material* material, const Eigen::Vector3f& o
                                 std::array{factor[0], factor[1], factor[2]}),
                      pictures_.size());
   if (!is_new) return known->second;
-  cv::Mat3b image = replaced ? read_texture(file_.options.texture, file_.path.string())
-                             : load_texture(file_.scene, plain.texture, file_.path);
+  cv::Mat3b image = replaced ? read_texture(file_.options.texture, file_.path.string(), notes)
+                             : load_texture(file_.scene, plain.texture, file_.path, notes);
   multiply(image, factor);
   pictures_.emplace_back(image, plain.wrap);
   return pictures_.size() - 1;

@@ -24,8 +24,9 @@ struct Look {
 class Looks {
  public:
   /// Loads the pictures. Throws DataError if one is missing, damaged or without texture
-  /// coordinates.
-  Looks(const MeshFile& file, const Soup& soup, const std::vector<int>& kept);
+  /// coordinates. `notes` receives what of them is not honoured.
+  Looks(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
+        std::vector<std::string>& notes);
 
   const Look& of(int triangle) const { return looks_[part_of(triangle)]; }
   const Look& of_part(std::size_t part) const { return looks_[part]; }
@@ -49,8 +50,9 @@ class Looks {
 
  private:
   const mesh_wire::Material* material_of(const mesh_wire::MeshPart& part) const;
-  void set_look(std::size_t index, const Rgb& first);
-  std::size_t picture_of(const mesh_wire::Material* material, const Eigen::Vector3f& of_points);
+  void set_look(std::size_t index, const Rgb& first, std::vector<std::string>& notes);
+  std::size_t picture_of(const mesh_wire::Material* material, const Eigen::Vector3f& of_points,
+                         std::vector<std::string>& notes);
 
   const MeshFile& file_;
   const Soup& soup_;

@@ -119,7 +119,11 @@ class ObjReader {
         return fmt::format("`{}` is not read: delete the line, or export triangles", words[0]);
       unread_.add(words[0], line);
     }
-    if (words[0] == "f") return problem_of_face(words);
+    if (words[0] == "usemtl") has_material_ = true;
+    if (words[0] == "f") {
+      faces_before_ += has_material_ ? 0 : 1;
+      return problem_of_face(words);
+    }
     for (std::size_t e = 0; e < kElements; ++e) {
       if (words[0] != kLeast[e].first) continue;
       ++counts_[e];
@@ -145,7 +149,14 @@ class ObjReader {
     return {};
   }
 
-  void tell(std::vector<std::string>& notes) const { unread_.tell(notes); }
+  void tell(std::vector<std::string>& notes) const {
+    unread_.tell(notes);
+    if (has_material_ && faces_before_ > 0)
+      notes.push_back(
+          fmt::format("faces before the first `usemtl` ({}) have no material of their own: they "
+                      "may be drawn with the first one; put `usemtl` before them",
+                      faces_before_));
+  }
 
   int line = 0;
 
@@ -189,6 +200,8 @@ class ObjReader {
   std::array<std::int64_t, kElements> counts_{};
   std::array<Named, kElements> largest_{};
   UnreadStatements unread_;
+  bool has_material_ = false;
+  std::int64_t faces_before_ = 0;  ///< the first material
 };
 
 }  // namespace

@@ -132,14 +132,47 @@ void restore_order(const aiMesh& mesh, MeshPart& part) {
   for (Weight& weight : part.weights) weight.vertex = numbers[weight.vertex];
 }
 
+/// The bone that holds a mesh without weights, and the place of its node at the bind pose.
+struct Holder {
+  std::uint32_t bone = 0;
+  aiMatrix4x4 file_from_node{};
+};
+
+/// Returns the nearest bone at or above a node; nothing without one.
+std::optional<Holder> holder_of(const aiNode& node, const Bones& bones, const Scene& out) {
+  aiMatrix4x4 bone_from_node;
+  for (const aiNode* at = &node; at; at = at->mParent) {
+    if (const auto found = bones.find(at->mName.C_Str()); found != bones.end()) {
+      const auto& m = out.bones[found->second].file_from_bone;
+      aiMatrix4x4 file_from_bone;
+      for (unsigned k = 0; k < 16; ++k) file_from_bone[k / 4][k % 4] = static_cast<ai_real>(m[k]);
+      return Holder{found->second, file_from_bone * bone_from_node};
+    }
+    bone_from_node = at->mTransformation * bone_from_node;
+  }
+  return std::nullopt;
+}
+
+void add_all_bones(const aiNode& node, const Context& context, Scene& out) {
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *context.scene.mMeshes[node.mMeshes[i]];
+    if (mesh.HasBones())
+      add_bones(mesh, file_from_skinned_mesh(context.scene, mesh, out), context.bones, out);
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) add_all_bones(*node.mChildren[i], context, out);
+}
+
 void add_meshes(const aiNode& node, const Context& context, Scene& out) {
   const aiScene& scene = context.scene;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-    const aiMatrix4x4 file_from_mesh =
-        mesh.HasBones() ? file_from_skinned_mesh(scene, mesh, out) : global_transform(&node);
-    add_bones(mesh, file_from_mesh, context.bones, out);
+    const auto holder = mesh.HasBones() ? std::nullopt : holder_of(node, context.bones, out);
+    const aiMatrix4x4 file_from_mesh = mesh.HasBones() ? file_from_skinned_mesh(scene, mesh, out)
+                                       : holder        ? holder->file_from_node
+                                                       : global_transform(&node);
     out.meshes.push_back(convert_mesh(mesh, file_from_mesh, context));
+    for (unsigned v = 0; holder && v < mesh.mNumVertices; ++v)
+      out.meshes.back().weights.push_back({holder->bone, v, 1});
     if (context.gltf) restore_order(mesh, out.meshes.back());
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -153,7 +186,9 @@ void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, b
                     Scene& out) {
   Bones bones;
   const float brightest = gltf ? 1 : brightest_number(scene, out);
-  add_meshes(*scene.mRootNode, {scene, uses, gltf, brightest, bones}, out);
+  const Context context{scene, uses, gltf, brightest, bones};
+  add_all_bones(*scene.mRootNode, context, out);
+  add_meshes(*scene.mRootNode, context, out);
   find_parents(scene, bones, out);
 }
 

@@ -32,6 +32,14 @@ class PlainWriter {
   std::vector<double> scales_;  // of the meshes' positions
 };
 
+/// Takes out what programs add for themselves, at any depth, which parse_gltf() limits. assimp
+/// refuses values of it that are no objects, though glTF 2.0 allows them.
+void erase_extras(Json& value) {
+  if (value.is_object()) value.erase("extras");
+  if (value.is_structured())
+    for (Json& below : value) erase_extras(below);
+}
+
 /// Returns whether positions of a mesh are whole numbers.
 bool PlainWriter::is_quantized(const Json& mesh) const {
   return std::ranges::any_of(list(mesh, "primitives"), [&](const Json& primitive) {
@@ -141,6 +149,7 @@ PlainGltf PlainWriter::write() {
   check_gltf_support(file_.root());
   PlainGltf plain{"", gltf_notes(file_)};
   root_ = file_.root();
+  erase_extras(root_);
   if (list(root_, "meshes").empty()) throw std::runtime_error("the file holds no mesh");
   if (list(root_, "nodes").empty()) throw std::runtime_error("the file holds no nodes");
   part_meshes();

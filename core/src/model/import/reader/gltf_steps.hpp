@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,15 @@ void check_gltf_support(const Json& root);
 /// Returns notes on what a file has that is not read: extensions, animations, cameras, further
 /// scenes, morph targets, points and lines, unknown attributes, keys and chunks.
 std::vector<std::string> gltf_notes(const GltfFile& file);
+
+/// What a file has that glTF 2.0 does not have.
+struct GltfUnknown {
+  std::set<std::string> keys;        ///< `nodes.odd`; those of the root without a dot
+  std::set<std::string> extensions;  ///< of all objects but materials
+};
+
+/// Collects unknown keys and extensions of the objects that are read.
+GltfUnknown unknown_in(const Json& root);
 
 /// Moves the scale of inverse bind matrices to the positions that they take, and returns it.
 /// Otherwise positions that are whole numbers have no known unit where the bones are not at their

@@ -140,18 +140,6 @@ std::vector<std::string> unknown_attributes(const Json& root) {
   return {names.begin(), names.end()};
 }
 
-std::vector<std::string> unknown_keys(const Json& root) {
-  constexpr std::array<std::string_view, 19> kKnown = {
-      "accessors", "animations", "asset",          "bufferViews", "buffers",
-      "cameras",   "extensions", "extensionsUsed", "extras",      "extensionsRequired",
-      "images",    "materials",  "meshes",         "nodes",       "samplers",
-      "scene",     "scenes",     "skins",          "textures"};
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : root.items())
-    if (std::ranges::find(kKnown, key) == kKnown.end()) keys.push_back(key);
-  return keys;
-}
-
 }  // namespace
 
 void check_gltf_support(const Json& root) {
@@ -159,6 +147,10 @@ void check_gltf_support(const Json& root) {
   if (!version.starts_with("2."))
     throw std::runtime_error("this is glTF version '" + printable(version) +
                              "'; hypotrack reads version 2: export the file as glTF 2.0");
+  const std::string least = text(member(root, "asset"), "minVersion");
+  if (!least.empty() && !least.starts_with("2.0"))
+    throw std::runtime_error("it needs a reader of glTF version '" + printable(least) +
+                             "'; hypotrack reads 2.0: export the file as glTF 2.0");
   for (const std::string& name : texts(list(root, "extensionsRequired"))) {
     if (support_of(name) == Support::read || support_of(name) == Support::invisible) continue;
     const Extension* known = known_extension(name);
@@ -172,7 +164,11 @@ void check_gltf_support(const Json& root) {
 
 std::vector<std::string> gltf_notes(const GltfFile& file) {
   std::vector<std::string> notes, unread;
-  for (const std::string& name : texts(list(file.root(), "extensionsUsed"))) {
+  const GltfUnknown unknown = unknown_in(file.root());
+  std::vector<std::string> used = texts(list(file.root(), "extensionsUsed"));
+  for (const std::string& name : unknown.extensions)  // some files do not list theirs
+    if (std::ranges::find(used, name) == used.end()) used.push_back(name);
+  for (const std::string& name : used) {
     const bool of_materials = name.starts_with("KHR_materials_");  // there is a note per material
     if (support_of(name) == Support::unread && !of_materials) unread.push_back(name);
   }
@@ -187,7 +183,7 @@ std::vector<std::string> gltf_notes(const GltfFile& file) {
     add("morph targets that are not applied, of meshes: ", meshes_of_odd_targets(file.root()));
   }
   add("attributes of vertices that are not read: ", unknown_attributes(file.root()));
-  add("keys that are not read: ", unknown_keys(file.root()));
+  add("keys that are not read: ", {unknown.keys.begin(), unknown.keys.end()});
   add("chunks that are not read: ", file.unknown_chunks());
   return notes;
 }
