@@ -3,7 +3,7 @@
 
 Prints a table of a checkout, of tracked files only, so that two commits can be compared: git worktree add DIR COMMIT.
 
-  product        core/, plugins/ and lab/: C++, CUDA, scripts and pages; no tests, tools, benchmarks, examples
+  product        core/, plugins/ and lab/: C++, CUDA, scripts and pages; no tests, tools, lab/microbench, examples
   short files    C++ and CUDA files of the product with fewer than 25 lines, comments and blank lines included
   large folders  folders of the product with more than 25 tracked files of any kind, without those below them
   constants      constexpr and const statements of the tracker that declare names k..., and these names
@@ -30,6 +30,7 @@ from collections import Counter
 from pathlib import Path
 
 PRODUCT = ("core/", "plugins/", "lab/")
+NO_PRODUCT = ("lab/microbench/",)
 CODE = (".cpp", ".hpp", ".cu", ".cuh", ".h")
 PAGES = (".js", ".css", ".html", ".py", ".sh")
 HANDS = re.compile(r"\b(?:hand|finger|palm|thumb|wrist)s?\b", re.I)
@@ -96,7 +97,7 @@ def search_types(text):
 def count(root):
     listed = subprocess.run(["git", "-C", root, "ls-files", "-z"], check=True, capture_output=True, text=True).stdout
     files = [f for f in listed.split("\0") if f and (root / f).is_file()]
-    product = [f for f in files if f.startswith(PRODUCT)]
+    product = [f for f in files if f.startswith(PRODUCT) and not f.startswith(NO_PRODUCT)]
     texts = {f: (root / f).read_text(errors="replace") for f in product if f.endswith(CODE + PAGES)}
     code = {f: t for f, t in texts.items() if f.endswith(CODE)}
     lines = {f: t.count("\n") for f, t in texts.items()}

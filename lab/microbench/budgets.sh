@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# Mean joint error of the paper's method over particles x generations: bench/budgets.sh SCENE... (SEEDS=5, BUDGETS="16 32 64",
-# HYPOTRACK=build/release/bin/hypotrack). Renders each scene once, then tracks the recording with every
-# budget N x N and seed; prints one line per scene and budget.
+# Mean joint error of the paper's method over particles x generations:
+#
+#   lab/microbench/budgets.sh SCENE...        (SEEDS=5, BUDGETS="16 32 64", HYPOTRACK=build/release/bin/hypotrack)
+#
+# Renders each scene once, then tracks the recording with every budget N x N and seed; prints one line per scene and
+# budget.
 set -euo pipefail
 hypotrack=${HYPOTRACK:-build/release/bin/hypotrack}
 scratch=$(mktemp -d)

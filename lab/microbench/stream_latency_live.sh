@@ -3,7 +3,7 @@
 # machine play the rendered hand of demo.yaml to and fro, 30 pairs of 1280x720 per second.
 set -euo pipefail
 build=$(realpath "$1")
-here=$(realpath "$(dirname "$0")/..")
+here=$(realpath "$(dirname "$0")/../..")
 folder=$(mktemp -d)
 servers=()
 trap 'kill "${servers[@]}" 2>/dev/null || true; rm -rf "$folder"' EXIT

@@ -14,7 +14,6 @@
 #include <set>
 
 #include "gltf.hpp"
-#include "test_paths.hpp"
 #include "the_hand.hpp"
 
 namespace hypotrack::hand_mesh {
@@ -165,8 +164,7 @@ TEST(HandFile, LoadsThroughAssimpWithAllBonesInMetres) {
 }
 
 TEST(HandRig, NamesEveryBoneAndEndsTheDigitsAtTheirTips) {
-  const YAML::Node rig =
-      YAML::LoadFile((test::source_dir() / "configs/rigs/hypotrack_hand.yaml").string());
+  const YAML::Node rig = YAML::LoadFile(RIG_FILE);
   ASSERT_EQ(rig["bones"].size(), the_hand().skeleton.size());
   for (const SkeletonBone& bone : the_hand().skeleton) {
     YAML::Node entry;
