@@ -32,7 +32,7 @@ class WrittenVideos : public testing::Test {
 };
 
 TEST_F(WrittenVideos, HaveEveryFrameAtItsTimeInItsColour) {
-  for (const double rate : {30.0, 25.0, 30000 / 1001.0, 7.5, 240.0}) {
+  for (const double rate : {30.0, 25.0, 30000 / 1001.0, 7.5, 240.0, 0.01, 10000.0}) {
     write(file("a.mp4"), {160, 96}, rate, 17);
     const auto video = open_video(file("a.mp4"));
     ASSERT_THAT(video->info().times, SizeIs(17)) << rate;
