@@ -19,6 +19,9 @@ namespace {
 constexpr double kRecent = 0.15;
 // Places that are searched although a start that recognises the model sees it nowhere.
 constexpr std::size_t kDeniedPlaces = 2;
+// Effort of these searches for a model that is known, as a share of the usual one: later frames
+// search again.
+constexpr double kDeniedShare = 0.2;
 constexpr std::size_t kAllPlaces = std::numeric_limits<std::size_t>::max();
 
 /// Lends a tracker's global search to its starts.
@@ -39,6 +42,13 @@ GlobalSearchSettings with_defaults(GlobalSearchSettings settings, const Recovery
   if (settings.hypotheses == 0) settings.hypotheses = usual.hypotheses;
   if (settings.refined == 0) settings.refined = usual.refined;
   if (settings.searched == 0) settings.searched = usual.searched;
+  return settings;
+}
+
+/// Returns a share of an effort, at least one of each.
+GlobalSearchSettings share_of(GlobalSearchSettings settings, double share) {
+  for (int* count : {&settings.hypotheses, &settings.refined})
+    *count = std::max(1, static_cast<int>(std::lround(share * *count)));
   return settings;
 }
 
@@ -192,6 +202,7 @@ CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start&
     // Where a start sees the model, its pose is about known; where one denies it, it hardly is
     // there.
     if (denied || !recognized_.empty()) effort = with_defaults(effort, finder_.settings_.recovery);
+    if (denied && std::isfinite(task_.last.seconds)) effort = share_of(effort, kDeniedShare);
     const std::size_t most = denied ? kDeniedPlaces : kAllPlaces;
     search_places(effort, most, [&](const Eigen::VectorXd& state) {
       offer(state.segment(item_.offset, item_.model->dimension()));
