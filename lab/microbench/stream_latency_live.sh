@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# stream_latency_live.sh BUILD_DIR [FRAMES]: bench_stream_latency with a live source: two MJPEG streams of this
-# machine play the rendered hand of demo.yaml to and fro, 30 pairs of 1280x720 per second.
+# stream_latency_live.sh BUILD_DIR [FRAMES [TRACKER]]: bench_stream_latency with a live source: two MJPEG streams of
+# this machine play the rendered hand of demo.yaml to and fro, 30 pairs of 1280x720 per second. TRACKER: real_time.
 set -euo pipefail
 build=$(realpath "$1")
 here=$(realpath "$(dirname "$0")/../..")
@@ -28,7 +28,7 @@ source:
   left: "http://127.0.0.1:$(cat port_left)/stream"
   right: "http://127.0.0.1:$(cat port_right)/stream"
   calibration: {file: recording/calibration.yaml}
-tracker: "@trackers/real_time"
+tracker: "@trackers/${3:-real_time}"
 init:
   from: rest
   pose: {hand: {position_mm: [50, 85, 490], rotation_deg: [175, 0, 6], angles_deg: {thumb_abduction: 35}}}
