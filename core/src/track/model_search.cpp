@@ -45,13 +45,6 @@ GlobalSearchSettings with_defaults(GlobalSearchSettings settings, const Recovery
   return settings;
 }
 
-/// Returns a share of an effort, at least one of each.
-GlobalSearchSettings share_of(GlobalSearchSettings settings, double share) {
-  for (int* count : {&settings.hypotheses, &settings.refined})
-    *count = std::max(1, static_cast<int>(std::lround(share * *count)));
-  return settings;
-}
-
 }  // namespace
 
 CandidateFinder::ModelSearch::ModelSearch(CandidateFinder& finder, const Frame& frame,

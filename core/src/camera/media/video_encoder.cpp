@@ -5,7 +5,6 @@ extern "C" {
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <string>
 #include <utility>
@@ -21,7 +20,7 @@ struct EncoderChoice {
   const char* name;
   const char* preset;  ///< null: it has none
 };
-// The usual preset takes three times as long: as much of two cores as tracking.
+// The default preset takes three times as long.
 constexpr std::array<EncoderChoice, 3> kEncoders = {
     {{"libx264", "superfast"}, {"libopenh264", nullptr}, {"mpeg4", nullptr}}};
 

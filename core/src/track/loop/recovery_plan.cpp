@@ -9,11 +9,8 @@ namespace {
 /// Returns the effort of a search for alternatives around a pose.
 GlobalSearchSettings nearby_effort(const RecoverySettings& recovery) {
   constexpr double kShare = 0.1;  // of a search of one place: more finds no more of them
-  const auto share = [](int whole) {
-    return std::max(1, static_cast<int>(std::lround(kShare * whole)));
-  };
-  return {
-      .hypotheses = share(recovery.hypotheses), .refined = share(recovery.refined), .searched = 1};
+  return share_of({.hypotheses = recovery.hypotheses, .refined = recovery.refined, .searched = 1},
+                  kShare);
 }
 
 /// Returns whether lost models are looked for in the background.

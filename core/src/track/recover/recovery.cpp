@@ -42,6 +42,12 @@ std::span<const std::string_view> enum_names(RecoveryRun) {
   return names;
 }
 
+GlobalSearchSettings share_of(GlobalSearchSettings effort, double share) {
+  for (int* count : {&effort.hypotheses, &effort.refined})
+    *count = std::max(1, static_cast<int>(std::lround(share * *count)));
+  return effort;
+}
+
 Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
                    const RecoverySettings& settings)
     : scene_(scene), cameras_(cameras), settings_(settings), in_view_(scene.items().size(), true) {

@@ -43,6 +43,9 @@ struct Candidates {
   std::int64_t evaluations = 0;
 };
 
+/// Returns a share of an effort: at least one hypothesis and one refinement.
+GlobalSearchSettings share_of(GlobalSearchSettings effort, double share);
+
 /// Searches whole pictures for a lost model: around its last place, and wherever both views show
 /// its colours.
 class Recovery {
