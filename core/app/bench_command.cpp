@@ -29,6 +29,7 @@ struct BenchOptions {
   bench::Limits limits;
   std::optional<int> frames;
   int rounds = 1;
+  bool profiles = false;
   std::filesystem::path out;
 };
 
@@ -68,7 +69,7 @@ class Bench {
     } catch (const std::exception& e) {
       return {.outcome = bench::Outcome::unavailable, .message = e.what()};
     }
-    return bench::measure(c, configuration, *frames, plugins_, options_.limits,
+    return bench::measure(c, configuration, *frames, plugins_, options_.limits, options_.profiles,
                           [&] { return !interrupt_.interrupted(); });
   }
 
@@ -104,6 +105,7 @@ void print_tables(const bench::Plan& plan, const BenchOptions& options,
   for (int round = 1; round <= (rows.empty() ? 0 : rows.back().round); ++round) {
     if (options.rounds > 1) fmt::print("\nround {} of {}", round, options.rounds);
     fmt::print("\n{}", bench::table_text(plan, rows, round));
+    fmt::print("{}", bench::profile_text(plan, rows, round));
   }
   if (!options.out.empty()) fmt::print("\nrows in {}\n", options.out.string());
 }
@@ -178,6 +180,9 @@ void add_bench_command(const Command& root, CommonOptions& common, int& exit_cod
               {.commas = true});
   add_set_option(command, options->request.set);
   add_limits(command, *options);
+  command.add("--profile", &options->profiles,
+              "Print the time of each part of a frame; waiting for a GPU after each makes frames "
+              "slower");
   command.add("--out", &options->out, "CSV or JSON file for the rows", {.check = file_name()});
   command.on_call([=, &common, &exit_code] { exit_code = run_bench(*options, common); });
 }

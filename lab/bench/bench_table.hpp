@@ -26,6 +26,10 @@ std::string in_words(const Measurement& measurement);
 /// Formats one round as a table for people, followed by the devices and the reasons for gaps.
 std::string table_text(const Plan& plan, const std::vector<Row>& rows, int round);
 
+/// Formats the parts of the frames of a round: milliseconds per frame, of them waiting for a GPU,
+/// calls per frame. Empty without a profile.
+std::string profile_text(const Plan& plan, const std::vector<Row>& rows, int round);
+
 /// Throws ConfigError if write_rows() does not know the format of a file name.
 void check_format(const std::filesystem::path& file);
 

@@ -62,11 +62,33 @@ int usable_of(const std::vector<Frame>& frames) {
                                         [](const Frame& frame) { return !frame.views.empty(); }));
 }
 
-void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limits,
+/// Profiles frames, if asked to.
+class FrameProfiler {
+ public:
+  FrameProfiler(bool is_on, const Opened& opened) {
+    if (!is_on) return;
+    const bool on_gpu = !opened.tracker.backend().starts_with("cpu");
+    profile_.emplace(on_gpu ? [] { cuda::wait_for_device(); } : std::function<void()>());
+    scope_.emplace(*profile_);
+  }
+  void forget() {
+    if (profile_) profile_->clear();
+  }
+  std::vector<Profile::Part> parts() const {
+    return profile_ ? profile_->parts() : std::vector<Profile::Part>();
+  }
+
+ private:
+  std::optional<Profile> profile_;
+  std::optional<ProfileScope> scope_;
+};
+
+void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limits, bool profiles,
            const std::function<bool()>& again, Measurement& result) {
   const Scene& scene = *opened.session.scene;
   MetricsCollector metrics(landmark_layout(scene.landmark_names()));
   Schedule schedule(limits, usable_of(frames));
+  FrameProfiler profiler(profiles, opened);
   const auto begin = Clock::now();
   for (const Frame& frame : frames) {
     if (!schedule.goes_on(seconds_since(begin)) || !again()) break;
@@ -76,6 +98,7 @@ void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limit
     if (solution.status == Status::missing) continue;
     if (!schedule.counts(seconds_since(begin))) {
       ++result.warm_up;
+      profiler.forget();
       continue;
     }
     result.seconds.push_back(seconds);
@@ -86,6 +109,7 @@ void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limit
                 frame.truth ? frame.truth->absent : std::vector<bool>());
   }
   result.metrics = metrics.metrics();
+  result.parts = profiler.parts();
 }
 
 /// Returns the message of the exception being handled.
@@ -107,7 +131,7 @@ std::string_view to_string(Outcome outcome) {
 }
 
 Measurement measure(const Case& c, const Configuration& configuration, std::vector<Frame>& frames,
-                    PluginLoader& plugins, const Limits& limits,
+                    PluginLoader& plugins, const Limits& limits, bool profiles,
                     const std::function<bool()>& again) {
   Measurement result{.outcome = Outcome::unavailable};
   try {
@@ -117,7 +141,7 @@ Measurement measure(const Case& c, const Configuration& configuration, std::vect
     Opened opened(std::move(session), frames.front());
     result.device = opened.tracker.backend();
     result.outcome = Outcome::failed;
-    track(opened, frames, limits, again, result);
+    track(opened, frames, limits, profiles, again, result);
     result.device_mib = memory.used_mib();
     result.outcome = Outcome::measured;
   } catch (...) {

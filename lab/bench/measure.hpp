@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "base/profile.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
@@ -34,13 +35,15 @@ struct Measurement {
   Metrics metrics = {};                  ///< of the measured frames
   /// GPU memory in use since before the scene was opened, by any process; nothing without a GPU.
   std::optional<double> device_mib = {};
+  std::vector<Profile::Part> parts = {};  ///< of the measured frames together, if profiled
 };
 
 /// Tracks frames in memory, one after the other. The first must have views. Moves their images to
 /// where a source would allocate them for this configuration. Calls `again` before every frame; it
-/// ends the work by returning false. Reports errors in the result and does not throw.
+/// ends the work by returning false. A profile waits for the GPU after every part. Reports errors
+/// in the result and does not throw.
 Measurement measure(const Case& c, const Configuration& configuration, std::vector<Frame>& frames,
-                    PluginLoader& plugins, const Limits& limits,
+                    PluginLoader& plugins, const Limits& limits, bool profiles,
                     const std::function<bool()>& again);
 
 }  // namespace internal

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "base/profile.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/stop.hpp"
 
@@ -66,7 +67,10 @@ void Cost::prepare_only_drawing(const Observation& observation) {
 }
 
 void Cost::prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) {
-  observation_ = tiles.resample(frame, plan);
+  {
+    const ProfiledPart part("resample");
+    observation_ = tiles.resample(frame, plan);
+  }
   prepare_observation(observation_);
 }
 

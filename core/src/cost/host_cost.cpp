@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/profile.hpp"
 #include "base/stop_scope.hpp"
 #include "cost/backends.hpp"
 #include "cost/difference_blocks.hpp"
@@ -110,8 +111,10 @@ class HostCost final : public Cost, public StateResiduals {
   }
   void prepare_observation(const Observation& observation) override {
     arena_.execute([&] {
-      tbb::parallel_for(std::size_t{0}, terms().size(),
-                        [&](std::size_t i) { terms()[i].objective->prepare(observation); });
+      tbb::parallel_for(std::size_t{0}, terms().size(), [&](std::size_t i) {
+        const ProfiledPart part(terms()[i].name);
+        terms()[i].objective->prepare(observation);
+      });
     });
     prepare_only_drawing(observation);
   }

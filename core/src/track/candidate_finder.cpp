@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "hypotrack/search.hpp"
 #include "track/displace.hpp"
 #include "track/model_search.hpp"
@@ -60,6 +61,7 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
 }
 
 Candidate CandidateFinder::verified(const Frame& frame, Found found) {
+  const ProfiledPart part("measure");
   const std::size_t models = scene_.items().size();
   Candidate out{std::move(found),
                 ModelProbabilities(models, std::numeric_limits<double>::quiet_NaN()),

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "cost/search_clock.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/stop.hpp"
@@ -60,6 +61,7 @@ Eigen::VectorXd FrameSearch::drawn(Eigen::VectorXd state) const {
 }
 
 void FrameSearch::remember(std::shared_ptr<PreviousSolution> answer, const Frame* frame) {
+  const ProfiledPart part("keep pictures");
   if (answer && frame && keeps_tiles_) {
     TilePlan plan = tiles_.plan(*frame, answer->state);
     photometric_.apply(plan);
@@ -83,6 +85,7 @@ void FrameSearch::add_hidden(TilePlan& plan) const {
 }
 
 void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess) {
+  const ProfiledPart part("prepare");
   plan_ = tiles_.plan(frame, start);
   const Eigen::VectorXd posed = drawn(start);
   if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, posed);
@@ -142,6 +145,7 @@ Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
 
 OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& region,
                                       const Budget& budget, std::uint64_t seed) {
+  const ProfiledPart part("search");
   const detail::RunningPlugin running(optimizer_label_.c_str());
   const SearchClockScope clock(clock_);
   OptimizerResult answer;
@@ -227,8 +231,12 @@ Found FrameSearch::from_guess(const Frame& frame, const Eigen::VectorXd& start,
 }
 
 void FrameSearch::learn(const Frame& frame, const Eigen::VectorXd& state) {
-  photometric_.learn(tiles_, frame, plan_, drawn(state));
+  {
+    const ProfiledPart part("match colours");
+    photometric_.learn(tiles_, frame, plan_, drawn(state));
+  }
   const bool all = std::ranges::find(shown_, false) == shown_.end();
+  const ProfiledPart part("learn the background");
   if (background_ && all) background_->learn(frame, state);  // a lost model may be anywhere
 }
 

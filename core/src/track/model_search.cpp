@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/recover/held_models.hpp"
@@ -191,6 +192,7 @@ bool CandidateFinder::ModelSearch::is_known(const Eigen::VectorXd& state) const 
 
 CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start, bool denied,
                                                                           bool may_search) {
+  const ProfiledPart part("ask a start");
   LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
     // Where a start sees the model, its pose is about known; where one denies it, it hardly is
     // there.

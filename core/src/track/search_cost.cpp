@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/profile.hpp"
+
 namespace hypotrack::internal {
 namespace {
 
@@ -24,6 +26,7 @@ class SearchDifferences final : public ResidualDifferences {
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::VectorXd> costs) override {
     const Eigen::MatrixXd states = space_.states(points, prior_);
+    const ProfiledPart part("residuals kept");
     tally_.count(states.cols(), [&] { of_states_->evaluate(states, costs); });
     tally_.add(costs);
     add_to(record_, states, costs);
@@ -33,6 +36,7 @@ class SearchDifferences final : public ResidualDifferences {
                                    const Eigen::Ref<const Eigen::VectorXd>& scale,
                                    Eigen::Ref<Eigen::VectorXd> costs) override {
     const Eigen::MatrixXd states = space_.states(points, prior_);
+    const ProfiledPart part("normal equations");
     NormalEquations sums = tally_.count(
         states.cols(), [&] { return of_states_->normal_equations(states, scale, costs); });
     tally_.add(costs);
@@ -51,6 +55,7 @@ class SearchDifferences final : public ResidualDifferences {
 
 void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::VectorXd> costs) {
+  const ProfiledPart part("costs");
   constexpr Eigen::Index kMost = 1 << 14;  // points between two looks whether the search has to end
   for (Eigen::Index first = 0; first < points.cols(); first += kMost) {
     const Eigen::Index count = std::min(kMost, points.cols() - first);
@@ -73,6 +78,7 @@ void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::MatrixXf> residuals,
                           Eigen::Ref<Eigen::VectorXd> costs) {
   const Eigen::MatrixXd states = space_.states(points, prior_);
+  const ProfiledPart part("residuals");
   tally_.count(states.cols(), [&] { cost_.least_squares()->evaluate(states, residuals, costs); });
   tally_.add(costs);
   add_to(record_, states, costs);
@@ -86,6 +92,7 @@ std::unique_ptr<ResidualDifferences> SearchCost::differences() {
 NormalEquations SearchCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                       const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) {
   const Eigen::MatrixXd states = space_.states(points, prior_);
+  const ProfiledPart part("linearize");
   NormalEquations out = tally_.count(linearize_price(steps.size()), [&] {
     return cost_.least_squares()->linearize(states, steps, blur);
   });
@@ -98,6 +105,7 @@ std::vector<NormalEquations> SearchCost::linearize_each(std::span<const Neighbou
   for (const Neighbourhood& at : points) {
     states.push_back({space_.states(at.points, prior_), at.steps, at.blur});
   }
+  const ProfiledPart part("linearize many");
   std::vector<NormalEquations> out =
       tally_.count(std::ssize(states) * linearize_price(dimension()),
                    [&] { return cost_.least_squares()->linearize_each(states); });

@@ -9,6 +9,7 @@ namespace hypotrack::cuda::internal {
 std::string why_no_device(int) { return "this hypotrack was built without CUDA"; }
 
 std::optional<std::size_t> free_memory(int) { return std::nullopt; }
+void wait_for_device() {}
 
 void page_lock_images(int) {}
 

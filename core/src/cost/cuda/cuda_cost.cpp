@@ -114,7 +114,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
     batch_.upload(states, stream());
     frame_.enqueue(batch_.layout());
     batch_.download(0, states.cols(), stream());
-    check(cudaStreamSynchronize(native(stream())), "evaluating hypotheses");
+    wait_for(stream(), "evaluating hypotheses");
     batch_.read(costs, frame_.terms());
   }
 

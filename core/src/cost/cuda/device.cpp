@@ -64,6 +64,8 @@ std::optional<std::size_t> free_memory(int index) {
   return std::nullopt;
 }
 
+void wait_for_device() { check(cudaDeviceSynchronize(), "waiting for the GPU"); }
+
 Device::Device(int index) : index_(index) {
   std::string why = why_no_device(index);
   if (why.empty()) why = why_not_this_device(index);

@@ -23,6 +23,9 @@ std::string why_not_this_device(int index);
 /// answer. Makes it the GPU of this thread.
 std::optional<std::size_t> free_memory(int index = 0);
 
+/// Waits until the GPU of this thread has finished all its work. Throws DeviceError.
+void wait_for_device();
+
 /// A GPU and the stream for all work of one cost.
 class Device {
  public:

@@ -76,7 +76,7 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
   if (frame_.sloped_terms() > 0) enqueue_rows(count, columns);
   if (draws_differences) enqueue_differences(count, columns);
   side_.join(frame_.stream());
-  check(cudaStreamSynchronize(native(frame_.stream())), "linearising");
+  wait_for(frame_.stream(), "linearising");
   if (draws_differences) batch_.read(costs_, frame_.terms());
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto d = static_cast<Eigen::Index>(moved[k].size());

@@ -23,7 +23,7 @@ void DeviceResiduals::enqueue(const Eigen::MatrixXd& states) {
 }
 
 void DeviceResiduals::finish(Eigen::Ref<Eigen::VectorXd> costs) {
-  check(cudaStreamSynchronize(native(frame_.stream())), "evaluating residuals");
+  wait_for(frame_.stream(), "evaluating residuals");
   batch_.read(costs, frame_.terms());
 }
 

@@ -7,6 +7,7 @@
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/gl_interop.hpp"
 #include "cost/cuda/host_batch.hpp"
+#include "cost/cuda/transfer.hpp"
 #include "cost/gl/egl_drawer.hpp"
 #include "gl/egl_context.hpp"
 #include "hypotrack/error.hpp"
@@ -44,7 +45,7 @@ class EglCudaCost final : public Cost {
     batch_.upload(states, frame_.stream());
     for (Eigen::Index first = 0; first < states.cols(); first += layers) {
       draw_and_score(states, first, std::min(layers, states.cols() - first));
-      check(cudaStreamSynchronize(native(frame_.stream())), "scoring hypotheses");
+      wait_for(frame_.stream(), "scoring hypotheses");
     }
     batch_.read(costs, frame_.terms());
   }

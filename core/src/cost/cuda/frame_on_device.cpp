@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/profile.hpp"
 #include "cost/cuda/reserve_batch.hpp"
 #include "cost/cuda/transfer.hpp"
 #include "cost/term_residuals.hpp"
@@ -24,7 +25,7 @@ FrameOnDevice::~FrameOnDevice() { cudaStreamSynchronize(native(stream())); }
 
 void FrameOnDevice::finish() {
   device_.use();
-  check(cudaStreamSynchronize(native(stream())), "finishing the frame before");
+  wait_for(stream(), "finishing the frame before");
 }
 
 void FrameOnDevice::prepare(const Observation& observation) {
@@ -34,7 +35,10 @@ void FrameOnDevice::prepare(const Observation& observation) {
 void FrameOnDevice::prepare(const DeviceObservation& observation) {
   observation_ = observation;
   drawer_.prepare(observation_);
-  for (const auto& objective : objectives_) objective->prepare(observation_, stream());
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const ProfiledPart part(terms_[i].name);
+    objectives_[i]->prepare(observation_, stream());
+  }
 }
 
 void FrameOnDevice::reserve(std::int64_t count) {

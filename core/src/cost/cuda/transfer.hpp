@@ -1,10 +1,17 @@
 #pragma once
 
 #include "base/exported.hpp"
+#include "base/profile.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Waits until a stream has finished. Throws DeviceError, which names the work.
+inline void wait_for(Stream stream, const char* work) {
+  const ProfiledPart part("wait for the GPU");
+  check(cudaStreamSynchronize(native(stream)), work);
+}
 
 /// Enqueues the upload of the first `count` objects.
 template <class T>

@@ -1,6 +1,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "track/loop/steps.hpp"
 
 namespace hypotrack::internal {
@@ -27,6 +28,7 @@ ModelFlags good_ones(const LoopState& loop, const Candidate& best,
 
 ModelFlags accept(LoopState& loop, const Frame& frame, const Candidate& best,
                   const std::vector<Status>& judgement) {
+  const ProfiledPart part("accept");
   ModelFlags good = good_ones(loop, best, judgement);
   Eigen::VectorXd state = loop.trail.state();
   for (std::size_t m = 0; m < good.size(); ++m) {
@@ -59,6 +61,7 @@ void accept_nothing(LoopState& loop, const Frame& frame) {
 
 void learn(LoopState& loop, const Frame& frame, const Candidate& best,
            const std::vector<Status>& judgement) {
+  const ProfiledPart part("learn");
   ModelFlags tracked;
   for (const Status status : judgement) tracked.push_back(status == Status::tracked);
   loop.finder.accept(frame, best, tracked);

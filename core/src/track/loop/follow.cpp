@@ -1,6 +1,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/profile.hpp"
 #include "track/loop/steps.hpp"
 
 namespace hypotrack::internal {
@@ -38,6 +39,7 @@ void begin_again(LoopState& loop, const Frame& frame, Candidate& best) {
 }  // namespace
 
 Candidate follow(LoopState& loop, const Frame& frame) {
+  const ProfiledPart part("follow");
   if (!loop.trail.has_solution() && loop.given.expects_any()) return begin_at_start(loop, frame);
   const ModelFlags models = loop.followed();
   if (!any(models)) return without_poses(models.size());

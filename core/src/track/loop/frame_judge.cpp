@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/profile.hpp"
+
 namespace hypotrack::internal {
 namespace {
 
@@ -45,6 +47,7 @@ Solution FrameJudge::unjudged(const Frame& frame) const {
 
 std::vector<Status> FrameJudge::judge(const Frame& frame, const Candidate& best,
                                       Solution& solution) {
+  const ProfiledPart part("judge");
   solution.cost = best.found.cost;
   solution.evaluations = best.found.evaluations;
   solution.probabilities = best.probabilities;
@@ -71,6 +74,7 @@ StatusEvidence FrameJudge::shared_evidence(const Frame& frame, const Candidate& 
   evidence.visible = search.tiles().visible_share(best.found.state);
   evidence.foreground_overlap = search.tiles().foreground_overlap(frame, drawn);
   if (uncertainty_) {
+    const ProfiledPart part("sigmas");
     solution.sigma = uncertainty_->of(search.cost(), drawn);
     solution.evaluations += uncertainty_->evaluations();
   }

@@ -1,5 +1,6 @@
 #include "track/loop/picture_watch.hpp"
 
+#include "base/profile.hpp"
 #include "track/faults/fault_text.hpp"
 
 namespace hypotrack::internal {
@@ -13,6 +14,7 @@ PictureWatch::PictureWatch(const Scene& scene, const std::vector<Camera>& camera
 }
 
 ViewFault PictureWatch::check(const Frame& frame) {
+  const ProfiledPart part("check pictures");
   const ViewFault found = checks_ ? checks_->check(frame) : ViewFault{};
   if (rig_ && !spoils_pictures(found.fault)) rig_->look(frame);
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
@@ -33,6 +35,7 @@ void PictureWatch::tell_drifts(FrameSearch& search) const {
 
 bool PictureWatch::doubts_depth(const Frame& frame, const Solution& solution,
                                 const Eigen::VectorXd& state, const FrameSearch* search) {
+  const ProfiledPart part("check rig");
   if (!rig_) return false;
   if (search && search->photometric().knows())
     rig_->look_at_colors(solution.frame, search->second_view_colors());

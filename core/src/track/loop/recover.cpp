@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/profile.hpp"
 #include "track/loop/steps.hpp"
 
 namespace hypotrack::internal {
@@ -36,6 +37,7 @@ bool is_first_guess(const LoopState& loop, const Candidate& best) {
 }  // namespace
 
 void recover(LoopState& loop, const Frame& frame, const RecoveryRequest& request, Candidate& best) {
+  const ProfiledPart part("recover");
   loop.finder.recover(frame, request, best, loop.seed_of(frame, 7));
   if (request.contradicts) forget_contradicted(loop, request.sought, best);
   // From here on it is as if this pose had been given as the start.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
 #include "track/faults/fault_text.hpp"
@@ -41,6 +42,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
 }
 
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
+  const ProfiledPart part("frame");
   Solution solution = judge_.unjudged(frame);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();

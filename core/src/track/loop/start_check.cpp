@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/profile.hpp"
 #include "track/loop/steps.hpp"
 #include "track/sighting.hpp"
 
@@ -48,6 +49,7 @@ void try_other_poses(LoopState& loop, const Frame& frame, std::size_t model, Can
 }  // namespace
 
 void check_start(LoopState& loop, const Frame& frame, Candidate& best) {
+  const ProfiledPart part("check start");
   for (std::size_t m = 0; m < loop.tracks.size(); ++m) {
     if (!is_at_start(loop.tracks[m].phase()) || !best.answers() || !best.shown[m]) continue;
     const std::optional<double> apart = loop.finder.seen_from(frame, m, best.found.state);

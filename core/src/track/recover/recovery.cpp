@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "hypotrack/search.hpp"
 #include "track/recover/silhouette.hpp"
 #include "track/verify/surface_points.hpp"
@@ -204,6 +205,7 @@ Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVeri
 }
 
 void Recovery::look(Task& task, const MotionLimits& limits) {
+  const ProfiledPart part("find places");
   if (std::exchange(task.looked, true)) return;
   if (task.last.near_hint_only) {
     task.guesses = guesses(task, {}, limits);
@@ -219,6 +221,7 @@ void Recovery::look(Task& task, const MotionLimits& limits) {
 Candidates Recovery::find(const Task& task, const PoseGuess& guess,
                           const GlobalSearchSettings& effort, const MotionLimits& limits,
                           std::uint64_t seed) {
+  const ProfiledPart part("find poses");
   const Scene::Item& item = scene_.items()[task.model];
   const Eigen::VectorXd& base = task.last.state;
   const ColorMap colors = task.search.second_view_colors();
