@@ -20,9 +20,9 @@ namespace {
 constexpr double kRecent = 0.15;
 // Places that are searched although a start that recognises the model sees it nowhere.
 constexpr std::size_t kDeniedPlaces = 2;
-// Effort of these searches for a model that is known, as a share of the usual one: later frames
-// search again.
-constexpr double kDeniedShare = 0.2;
+// Effort of searches for a known model after a start that recognises it, as a share of the usual
+// one: it says where the model is, or later frames search again.
+constexpr double kToldShare = 0.2;
 constexpr std::size_t kAllPlaces = std::numeric_limits<std::size_t>::max();
 
 /// Lends a tracker's global search to its starts.
@@ -196,8 +196,9 @@ CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start&
   LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
     // Where a start sees the model, its pose is about known; where one denies it, it hardly is
     // there.
-    if (denied || !recognized_.empty()) effort = with_defaults(effort, finder_.settings_.recovery);
-    if (denied && std::isfinite(task_.last.seconds)) effort = share_of(effort, kDeniedShare);
+    const bool told = denied || !recognized_.empty();
+    if (told) effort = with_defaults(effort, finder_.settings_.recovery);
+    if (told && std::isfinite(task_.last.seconds)) effort = share_of(effort, kToldShare);
     const std::size_t most = denied ? kDeniedPlaces : kAllPlaces;
     search_places(effort, most, [&](const Eigen::VectorXd& state) {
       offer(state.segment(item_.offset, item_.model->dimension()));
