@@ -7,7 +7,7 @@
 namespace hypotrack::stereo_patch {
 namespace {
 
-TEST(Planes, LieHalfAPixelApartAroundTheLastSolution) {
+TEST(Planes, LieAStepApartAroundTheLastSolution) {
   const PatchPair pair({});
   const Settings settings;
   const Planes planes = planes_around(pair.observation, settings);
@@ -24,7 +24,7 @@ TEST(Planes, OfAGeneralPairLieNoFartherApart) {
   const PatchPair pair({.rectified = false});
   const Planes planes = planes_around(pair.observation, {});
   // Along the middle's epipolar line: the pixel moves by about focal * baseline / z.
-  EXPECT_LE(planes.step * 5.5 * 128 * 0.07, 0.5);
+  EXPECT_LE(planes.step * 5.5 * 128 * 0.07, Settings().step);
   EXPECT_GT(planes.count, 20);
 }
 
