@@ -1,11 +1,22 @@
+# hypotrack_plugin_kinds(OUT): the names in the table of kinds in hypotrack/plugin.hpp. This file lies
+# in the source tree, in PREFIX/lib/cmake/hypotrack or in PREFIX/lib/ARCHITECTURE/cmake/hypotrack.
+function(hypotrack_plugin_kinds out)
+  set(here ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
+  find_file(header hypotrack/plugin.hpp NO_CACHE NO_DEFAULT_PATH REQUIRED
+    PATHS ${here}/../core/include ${here}/../../../include ${here}/../../../../include)
+  file(READ ${header} text)
+  string(REGEX MATCHALL "\n  KIND\\([a-z]+," kinds "${text}")
+  list(TRANSFORM kinds REPLACE "[^a-z]" "")
+  set(${out} ${kinds} PARENT_SCOPE)
+endfunction()
+
 # hypotrack_add_plugin(KIND NAME SOURCES... [CUDA_SOURCES ...] [NO_CUDA_SOURCES ...]
 #                      [VERSION 1.2.3] [LICENCE Apache-2.0] [LIBRARIES ...]
 #                      [CONTRACT_CONFIG parameters.yaml])
 #
-# Builds libhypotrack_<KIND>_<NAME>.so, which a scene names with `type: NAME`. KIND is model,
-# objective, optimizer, source, start or output. Inside the project the library goes where hypotrack
-# looks for it and is installed; outside, it goes to the build folder: put that on --plugin-path or
-# HYPOTRACK_PLUGIN_PATH. With enable_testing() the contract tests of its kind run on it, with the
+# Builds libhypotrack_<KIND>_<NAME>.so, which a scene names with `type: NAME`. KIND is one of
+# hypotrack_plugin_kinds(). Inside the project the library goes where hypotrack looks for it and is
+# installed; outside, it goes to the build folder: put that on --plugin-path or HYPOTRACK_PLUGIN_PATH. With enable_testing() the contract tests of its kind run on it, with the
 # parameters in CONTRACT_CONFIG (what stands in the plugin's place in a scene) or the defaults.
 #
 # CUDA_SOURCES, and .cu files among SOURCES, need a CUDA toolkit; where there is none,
@@ -44,9 +55,10 @@ endfunction()
 function(hypotrack_add_plugin_library kind name)
   cmake_parse_arguments(ARG "" "VERSION;LICENCE;CONTRACT_CONFIG"
     "LIBRARIES;CUDA_SOURCES;NO_CUDA_SOURCES" ${ARGN})
-  if(NOT kind MATCHES "^(model|objective|optimizer|source|start|output)$")
-    message(FATAL_ERROR "hypotrack_add_plugin: '${kind}' is no plugin kind: expected model, "
-      "objective, optimizer, source, start or output")
+  hypotrack_plugin_kinds(kinds)
+  if(NOT kind IN_LIST kinds)
+    list(JOIN kinds ", " kinds)
+    message(FATAL_ERROR "hypotrack_add_plugin: '${kind}' is no plugin kind: expected one of ${kinds}")
   endif()
   if(NOT name MATCHES "^[a-z0-9_]+$")
     message(FATAL_ERROR "hypotrack_add_plugin: '${name}' is no name of a plugin: expected small "

@@ -24,6 +24,16 @@
 #include "hypotrack/source.hpp"
 #include "hypotrack/start.hpp"
 
+/// The table of plugin kinds: KIND(name, Interface). The loader, the contract tests, CMake and
+/// scripts take their kinds from here; they need each row on a line of its own.
+#define HYPOTRACK_PLUGIN_KINDS(KIND) \
+  KIND(model, Model)                 \
+  KIND(objective, Objective)         \
+  KIND(optimizer, Optimizer)         \
+  KIND(source, Source)               \
+  KIND(start, Start)                 \
+  KIND(output, Output)
+
 namespace hypotrack {
 
 class PluginContext;
@@ -31,18 +41,11 @@ class PluginContext;
 /// Name of a plugin kind in YAML keys, file names and messages.
 template <class T>
 inline constexpr std::string_view kPluginKind = {};
-template <>
-inline constexpr std::string_view kPluginKind<Model> = "model";
-template <>
-inline constexpr std::string_view kPluginKind<Objective> = "objective";
-template <>
-inline constexpr std::string_view kPluginKind<Optimizer> = "optimizer";
-template <>
-inline constexpr std::string_view kPluginKind<Source> = "source";
-template <>
-inline constexpr std::string_view kPluginKind<Start> = "start";
-template <>
-inline constexpr std::string_view kPluginKind<Output> = "output";
+#define HYPOTRACK_KIND(name, Interface) \
+  template <>                           \
+  inline constexpr std::string_view kPluginKind<Interface> = #name;
+HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)
+#undef HYPOTRACK_KIND
 
 template <class T>
 concept PluginInterface = !kPluginKind<T>.empty();
@@ -157,10 +160,13 @@ namespace detail {
 template <class Kind, class T>
 consteval bool is_plugin_class() {
   constexpr bool kDerived = std::derived_from<T, Kind>;
-  static_assert(kDerived,
-                "HYPOTRACK_PLUGIN: the class does not derive from the interface of its kind. Write "
-                "`class Mine : public hypotrack::Optimizer` (or Model, Objective, Source, Start, "
-                "Output), the KIND that CMake's hypotrack_add_plugin() gets");
+#define HYPOTRACK_KIND(name, Interface) " " #Interface
+  static_assert(
+      kDerived,
+      "HYPOTRACK_PLUGIN: the class does not derive from the interface of its kind. Write "
+      "`class Mine : public hypotrack::Optimizer`, with the interface of the KIND that "
+      "CMake's hypotrack_add_plugin() gets, one of" HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND));
+#undef HYPOTRACK_KIND
   constexpr bool kHasParams = requires { typename T::Params; };
   static_assert(
       kHasParams,
@@ -210,12 +216,9 @@ std::string describe_plugin() {
     return {};
 }
 
-using model = Model;
-using objective = Objective;
-using optimizer = Optimizer;
-using source = Source;
-using start = Start;
-using output = Output;
+#define HYPOTRACK_KIND(name, Interface) using name = Interface;
+HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)
+#undef HYPOTRACK_KIND
 }  // namespace detail
 
 }  // namespace hypotrack
@@ -223,10 +226,10 @@ using output = Output;
 #define HYPOTRACK_STRINGIZE_(x) #x
 #define HYPOTRACK_STRINGIZE(x) HYPOTRACK_STRINGIZE_(x)
 
-/// Makes a class the plugin of its library; use it once per library. The class derives from Model,
-/// Objective, Optimizer, Source, Start or Output and has a nested ParamStruct `Params`. It is
-/// constructible from (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in
-/// CMake gives kind, name, version and licence.
+/// Makes a class the plugin of its library; use it once per library. The class derives from an
+/// interface of HYPOTRACK_PLUGIN_KINDS and has a nested ParamStruct `Params`. It is constructible
+/// from (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in CMake gives
+/// kind, name, version and licence.
 #define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                             \
   extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*            \
   hypotrack_plugin() {                                                                             \

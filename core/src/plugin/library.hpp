@@ -19,8 +19,9 @@ struct PluginId {
   std::string name;
 };
 
-inline constexpr std::string_view kPluginKinds[] = {"model",  "objective", "optimizer",
-                                                    "source", "start",     "output"};
+#define HYPOTRACK_KIND(name, Interface) #name,
+inline constexpr std::string_view kPluginKinds[] = {HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)};
+#undef HYPOTRACK_KIND
 
 std::string library_file_name(std::string_view kind, std::string_view name);
 

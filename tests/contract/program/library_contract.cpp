@@ -170,11 +170,9 @@ bool check_parameters(Report& report, const Subject& subject, bool needs_config)
   return true;
 }
 
-template bool check_parameters<Model>(Report&, const Subject&, bool);
-template bool check_parameters<Objective>(Report&, const Subject&, bool);
-template bool check_parameters<Optimizer>(Report&, const Subject&, bool);
-template bool check_parameters<Output>(Report&, const Subject&, bool);
-template bool check_parameters<Source>(Report&, const Subject&, bool);
-template bool check_parameters<Start>(Report&, const Subject&, bool);
+#define HYPOTRACK_KIND(name, Interface) \
+  template bool check_parameters<Interface>(Report&, const Subject&, bool);
+HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)
+#undef HYPOTRACK_KIND
 
 }  // namespace hypotrack::contract

@@ -15,10 +15,10 @@ namespace {
 using namespace hypotrack;
 using namespace hypotrack::contract;
 
+#define HYPOTRACK_KIND(name, Interface) {#name, check_##name},
 const std::map<std::string, void (*)(Report&, const Subject&)> kChecks = {
-    {"model", check_model},   {"objective", check_objective}, {"optimizer", check_optimizer},
-    {"source", check_source}, {"start", check_start},         {"output", check_output},
-};
+    HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)};
+#undef HYPOTRACK_KIND
 
 int run(Subject& subject) {
   subject.scene =
@@ -34,11 +34,10 @@ int run(Subject& subject) {
 int main(int argc, char** argv) {
   open_standard_streams();
   if (argc < 3 || argc > 4 || !kChecks.contains(argv[1])) {
-    std::cerr << "usage: hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]\n"
-                 "KIND is model, objective, optimizer, source, start or output; PARAMETERS.yaml "
-                 "holds what "
-                 "stands in the plugin's place in a scene.\nThe scene around it is one hand of 27 "
-                 "parameters, named `hand`.\n";
+    std::cerr << "usage: hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]\nKIND is one of";
+    for (const auto& [kind, check] : kChecks) std::cerr << ' ' << kind;
+    std::cerr << "; PARAMETERS.yaml holds what stands in the plugin's place in a scene.\nThe scene "
+                 "around it is one hand of 27 parameters, named `hand`.\n";
     return 2;
   }
   Subject subject;

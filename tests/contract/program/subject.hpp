@@ -50,11 +50,8 @@ bool check_library(Report& report, Subject& subject);
 template <PluginInterface T>
 bool check_parameters(Report& report, const Subject& subject, bool needs_config = false);
 
-void check_model(Report& report, const Subject& subject);
-void check_objective(Report& report, const Subject& subject);
-void check_optimizer(Report& report, const Subject& subject);
-void check_output(Report& report, const Subject& subject);
-void check_source(Report& report, const Subject& subject);
-void check_start(Report& report, const Subject& subject);
+#define HYPOTRACK_KIND(name, Interface) void check_##name(Report& report, const Subject& subject);
+HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)
+#undef HYPOTRACK_KIND
 
 }  // namespace hypotrack::contract
