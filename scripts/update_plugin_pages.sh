@@ -6,6 +6,7 @@ build_dir=${1:-$root/build/release}
 out=${2:-$root/docs/reference/plugins}
 hypotrack=$build_dir/bin/hypotrack
 unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
+kinds=$(sed -n 's/^  KIND(\([a-z]*\), .*/\1/p' "$root/core/include/hypotrack/plugin.hpp")
 list=$("$hypotrack" plugins list) # before anything is removed
 rm -rf "$out"
 mkdir -p "$out"
@@ -13,7 +14,7 @@ mkdir -p "$out"
   echo "# Plugins"
   echo
   echo "Made by \`scripts/update_plugin_pages.sh\` from the plugins' parameters."
-  for kind in model objective optimizer source start output; do
+  for kind in $kinds; do
     echo
     echo "**${kind^}s**"
     echo
@@ -28,4 +29,10 @@ mkdir -p "$out"
   echo "What a plugin offers or needs beyond its kind."
   echo
   "$hypotrack" plugins capabilities --markdown
+  echo
+  echo "## Measures"
+  echo
+  echo "What [judges](../judges.md) know about the pose of a model in a frame."
+  echo
+  "$hypotrack" plugins measures --markdown
 } >"$out/index.md"

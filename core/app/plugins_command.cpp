@@ -61,6 +61,13 @@ int check(const std::vector<std::filesystem::path>& files) {
   return usable ? 0 : 1;
 }
 
+void print_measures(bool markdown) {
+  if (markdown) fmt::print("| measure | range | meaning |\n|---|---|---|\n");
+  for (const MeasureInfo& one : measure_infos())
+    markdown ? fmt::print("| `{}` | {} | {} |\n", one.name, one.range, one.meaning)
+             : fmt::print("{:16} {:10} {}\n", one.name, one.range, one.meaning);
+}
+
 }  // namespace
 
 void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code) {
@@ -91,6 +98,12 @@ void add_plugins_command(const Command& root, CommonOptions& common, int& exit_c
   capabilities.on_call([=] {
     fmt::print("{}", *as_table ? format_capabilities_markdown() : format_capabilities());
   });
+
+  auto as_rows = std::make_shared<bool>(false);
+  const Command measures =
+      command.add_command("measures", "What judges know about the pose of a model");
+  measures.add("--markdown", as_rows.get(), "Print a table for the documentation");
+  measures.on_call([=] { print_measures(*as_rows); });
 
   add_new_plugin_command(command, common, exit_code);
 

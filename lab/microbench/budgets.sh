@@ -20,7 +20,7 @@ for scene in "$@"; do
     errors=() fps=() lost=0
     for seed in $(seq "${SEEDS:-5}"); do
       "$hypotrack" run "$scratch/$name/scene.yaml" --out "$scratch/run" --seed "$seed" \
-        --set output.overlay=false --set 'objective={type: stereo_color}' --set photometric.match=false --set tracker.evidence=false \
+        --set output.overlay=false --set 'objective={type: stereo_color}' --set photometric.match=false --set judge=none \
         --set "optimizer={type: pso, particles: $n, generations: $n}" \
         --set 'search={rotation_as: quaternion}' --set budget.evaluations=0 --set tile.size=128 \
         >"$scratch/log" 2>&1

@@ -248,6 +248,28 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"start", "never_the_same", "a second object gives the same", "it gives another one"}),
     [](const auto& each) { return each.param.fault; });
 
+const std::string kAnswersRow = "it answers any measures with a number or an infinity";
+const std::string kThresholdsRow =
+    "its thresholds are probabilities, and lost models are not tracked";
+
+INSTANTIATE_TEST_SUITE_P(
+    Judge, Contract,
+    ::testing::Values(
+        Case{"judge", "answers_nan", kAnswersRow, "the log odds of a pose are NaN"},
+        Case{"judge", "throws_a_stranger", kAnswersRow, "agreement"},
+        Case{"judge", "remembers", "asked twice it answers the same", "it gives other answers"},
+        Case{"judge", "never_the_same", "a second object answers the same",
+             "it gives other answers"},
+        Case{"judge", "depends_on_the_thread", "several threads get the same answers",
+             "four threads differ from one"},
+        Case{"judge", "tracks_lost_models", kThresholdsRow,
+             "first_above is 0.075000, below uncertain_above, 0.150000"},
+        Case{"judge", "is_more_than_sure", kThresholdsRow,
+             "surely_above is 1.500000, expected 0 to 1"},
+        Case{"judge", "prefers_wrong_poses", "a right pose is likelier than one beside it",
+             "the log odds of a box at its pose are -4.8"}),
+    [](const auto& each) { return each.param.fault; });
+
 const std::string kColumnsRow = "its columns of track.csv have names, and one value each";
 const std::string kFileRow = "it writes the files that it asks for, and they are among its names";
 
@@ -285,7 +307,7 @@ INSTANTIATE_TEST_SUITE_P(All, ContractKept,
                          ::testing::Values(Case{"optimizer"}, Case{"objective"}, Case{"model"},
                                            Case{"model", "", "", "", kItself},
                                            Case{"source", "", "", "", kFrames}, Case{"start"},
-                                           Case{"output"}));
+                                           Case{"judge"}, Case{"output"}));
 
 Outcome run_on_device(const std::string& fault) {
   const test::TemporaryDirectory folder;

@@ -18,7 +18,8 @@ namespace {
 
 /// Returns the plugins that a recording of a hand is tracked with by `@trackers/recommended`.
 std::span<const std::string_view> needed_plugins() {
-  static constexpr std::array<std::string_view, 14> kPlugins = {"model/hand",
+  static constexpr std::array<std::string_view, 15> kPlugins = {"judge/network",
+                                                                "model/hand",
                                                                 "objective/plausible_motion",
                                                                 "objective/skin",
                                                                 "objective/stereo_color",

@@ -39,6 +39,7 @@ const std::vector<Example>& examples() {
        "\n  CONTRACT_CONFIG contract.yaml",
        ", folder: recording"},
       {"start", "in_front", {"in_front.cpp"}, "", ", distance_mm: 500"},
+      {"judge", "same_colors", {"same_colors.cpp"}, "", ""},
       {"output", "trajectory", {"trajectory.cpp"}, "", ""}};
   return all;
 }
@@ -122,6 +123,7 @@ std::string scene_text(const std::string& kind, const std::string& plugin) {
     out += "init: {pose: {object: {position_mm: [0, 0, 500]}}}\n";
   else
     out += "init: {from: truth}\n";
+  if (kind == "judge") out += "judge: {" + plugin + "}\n";
   if (kind == "output") out += "output: {also: {" + plugin + "}}\n";
   return out;
 }

@@ -14,6 +14,7 @@
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/export.hpp"
+#include "hypotrack/judge.hpp"
 #include "hypotrack/model.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -32,6 +33,7 @@
   KIND(optimizer, Optimizer)         \
   KIND(source, Source)               \
   KIND(start, Start)                 \
+  KIND(judge, Judge)                 \
   KIND(output, Output)
 
 namespace hypotrack {

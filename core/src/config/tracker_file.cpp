@@ -19,8 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keys that an override replaces. What is left belongs to the recording or the machine.
-constexpr std::array<std::string_view, 8> kKeysOfTrackers{
-    "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "smoothing"};
+constexpr std::array<std::string_view, 9> kKeysOfTrackers{"objective", "optimizer",   "budget",
+                                                          "tile",      "photometric", "search",
+                                                          "judge",     "tracker",     "smoothing"};
 
 /// Returns the reference that a value of the key `tracker` is or has at `from`.
 std::optional<FileName> name_in(const YamlNode& value) {

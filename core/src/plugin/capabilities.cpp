@@ -8,7 +8,7 @@
 namespace hypotrack::internal {
 namespace {
 
-constexpr std::array<Capability, 12> kKnown = {{
+constexpr std::array<Capability, 13> kKnown = {{
     {"objective", "residuals", "has residuals, which least-squares optimizers need"},
     {"objective", "slopes", "has their slopes at pixels, for analytic Jacobians"},
     {"objective", "jacobian", "has their derivatives by the state, for analytic Jacobians"},
@@ -18,6 +18,7 @@ constexpr std::array<Capability, 12> kKnown = {{
     {"optimizer", "seeded", "takes random numbers; equal seeds repeat its answer"},
     {"optimizer", "needs_least_squares", "works only if every objective has residuals"},
     {"optimizer", "needs_device", "works only if the scene is evaluated on a GPU"},
+    {"judge", "fits", "can be fitted to the measures of other objects"},
     {"source", "depth", "gives depth pictures"},
     {"source", "mask", "gives masks of the foreground"},
     {"source", "truth", "knows the true states and landmarks"},

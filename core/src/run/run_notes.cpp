@@ -41,8 +41,7 @@ void RunNotes::look_at_start(const Solution& solution) {
     watcher_.say(fmt::format(
         "note: frame {}: judged by the pictures, the pose found from the start is wrong "
         "(probability {:.2f} that it is right). Is the start (init) where the models are? If so, "
-        "the judgement may not suit them, as it was fitted to hands and boxes: set "
-        "tracker.evidence to false",
+        "the judge may not suit them: take another, or `judge: none`",
         solution.frame, probability));
     return;
   }

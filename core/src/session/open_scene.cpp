@@ -35,6 +35,7 @@ class Opening {
         plugins_(&plugins),
         record_(dump_params(file_)) {
     session_.plugin_notes = std::make_shared<PluginNotes>();
+    session_.notes = std::move(scene.notes);
   }
 
   /// Makes everything but the source.
@@ -45,6 +46,7 @@ class Opening {
   void objective();
   void images();
   void optimizer();
+  void judge();
   void start();
   std::vector<std::unique_ptr<Start>> starts(const ConfigNode& from,
                                              std::vector<YamlDocument>& records);
@@ -104,6 +106,7 @@ void Opening::tracker() {
   models();
   objective();
   optimizer();
+  judge();
   start();
 }
 
@@ -201,6 +204,20 @@ void Opening::optimizer() {
   session_.parts.optimizer_label =
       detail::plugin_label(kPluginKind<Optimizer>, file_.optimizer, session_.parts.optimizer.get());
   record_.set("optimizer", record);
+}
+
+void Opening::judge() {
+  ConfigNode node = file_.judge;
+  if (node.is_scalar() && node.scalar() == kNoJudge) return;
+  if (node.is_scalar()) {
+    const std::pair<std::string, ConfigNode> type{"type", node};
+    node = ConfigNode::map_of({&type, 1});
+  }
+  YamlDocument record;
+  std::unique_ptr<Judge> judge = make<Judge>(node, record);
+  judge->set_label(detail::plugin_label(kPluginKind<Judge>, node, judge.get()));
+  session_.parts.judge = std::move(judge);
+  record_.set("judge", record);
 }
 
 std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,

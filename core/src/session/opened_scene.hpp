@@ -47,8 +47,8 @@ struct OpenedScene {
   std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
 };
 
-/// Opens a scene: models first, then the objective, the optimizer, the start and the source. Throws
-/// the error of the part that fails.
+/// Opens a scene: models first, then the objective, the optimizer, the judge, the start and the
+/// source. Throws the error of the part that fails.
 OpenedScene open_scene(const std::filesystem::path& scene_file,
                        std::span<const std::string> overrides, PluginLoader& plugins);
 

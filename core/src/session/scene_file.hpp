@@ -81,6 +81,10 @@ struct InitSettings {
 /// `tracker.recovery`), or what its words stand for. `written` is the scene's `init`.
 std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written);
 
+/// The judge of scenes that name none, and the word for none.
+inline constexpr std::string_view kUsualJudge = "network";
+inline constexpr std::string_view kNoJudge = "none";
+
 /// `budget:` of a scene.
 struct BudgetSettings {
   std::int64_t evaluations = 0;
@@ -137,6 +141,7 @@ struct SceneFile {
   EvaluateSettings evaluate;
   PhotometricSettings photometric;
   SearchSettings search;
+  ConfigNode judge = ConfigNode::parse(kUsualJudge, "the default of judge");
   StatusSettings tracker;
   SmoothingSettings smoothing;
   ShapeEstimateSettings shape;
@@ -158,6 +163,9 @@ struct SceneFile {
     v("photometric", photometric, {.help = "how the views' colours are brought together"});
     v("search", search,
       {.help = "where the next solution is expected, and how far from there it may be"});
+    v("judge", judge,
+      {.help = "the name of a judge or {type, ...}: who says from the pictures whether a pose is "
+               "right; none: solutions are judged by their costs, without recovery"});
     v("tracker", tracker, {.help = "status, recovery and uncertainty"});
     v("smoothing", smoothing,
       {.help = "correction of states by later frames, before they are written"});
@@ -172,6 +180,7 @@ struct SceneFile {
 struct LoadedScene {
   SceneFile file;
   ConfigNode root;
+  std::vector<std::string> notes = {};  ///< for the user: keys that have another name now
 };
 
 /// Reads a scene file and applies the overrides. Throws ConfigError, also on unknown keys.

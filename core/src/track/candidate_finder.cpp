@@ -53,7 +53,7 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
       starts_(std::move(parts.starts)),
       budget_(parts.budget),
       search_(scene, parts),
-      verifier_(scene, parts.cameras),
+      verifier_(scene, parts.cameras, parts.judge),
       occlusion_(scene, parts.cameras),
       recovery_(scene, parts.cameras, parts.status.recovery),
       believed_(scene.items().size(), std::numeric_limits<double>::quiet_NaN()) {
@@ -70,7 +70,7 @@ Candidate CandidateFinder::verified(const Frame& frame, Found found) {
                 ModelFlags(models, false),
                 ModelFlags(models, false),
                 std::vector<double>(models, std::numeric_limits<double>::infinity())};
-  if (settings_.evidence && out.answers())
+  if (settings_.judged && out.answers())
     out.probabilities = verifier_.verify(frame, search_.drawn(out.found.state),
                                          search_.second_view_colors(), out.shown);
   if (std::isnan(out.probability())) return out;
@@ -285,7 +285,8 @@ bool CandidateFinder::is_confirmed(const std::vector<Candidate>& all, const Cand
 bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size_t model) const {
   for (auto a = all.begin(); a != all.end(); ++a)
     for (auto b = all.begin(); b != a; ++b)
-      if (std::min(a->probabilities[model], b->probabilities[model]) >= settings_.confirmed_above &&
+      if (std::min(a->probabilities[model], b->probabilities[model]) >=
+              settings_.thresholds.confirmed_above &&
           is_same(*a, *b, model))
         return true;
   return false;
@@ -307,7 +308,7 @@ ModelFlags CandidateFinder::lost_with(const RecoveryRequest& request, const Cand
 
 bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
                                const RecoveryRequest& request, std::size_t model) const {
-  if (!with.may_be_right(model, settings_.uncertain_above)) return false;
+  if (!with.may_be_right(model, settings_.thresholds.uncertain_above)) return false;
   for (std::size_t m = 0; m < base.shown.size(); ++m) {
     if (!base.shown[m] || m == model || std::isnan(base.probabilities[m])) continue;
     if (!(with.probabilities[m] >= std::min(request.needed[m], base.probabilities[m])))
@@ -405,7 +406,7 @@ void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request
       const ModelFlags held = lost_with(request, base, m);
       if (any(held))
         one = with_model(frame, request, base, best, m, held, seed_of_part(seed, ++part));
-      if (!one || !(one->probability() >= settings_.uncertain_above))
+      if (!one || !(one->probability() >= settings_.thresholds.uncertain_above))
         one = with_model(frame, request, base, best, m, {}, seed_of_part(seed, ++part));
     }
     const std::size_t joins = best_option(options, request);
@@ -415,7 +416,7 @@ void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request
     base = std::move(*chosen);
     for (std::size_t m = 0; m < left.size(); ++m)
       if (base.shown[m]) left[m] = false;
-    if (!base.may_be_right(joins, settings_.uncertain_above)) break;
+    if (!base.may_be_right(joins, settings_.thresholds.uncertain_above)) break;
   }
   base.in_view = best.in_view;
   for (std::size_t m = 0; m < base.shown.size(); ++m)
@@ -440,14 +441,15 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
   // Do not learn from doubtful models: the tracker would follow a model that slides off.
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)
-    if (verifier_.experienced(m) && best.probabilities[m] < settings_.surely_above) sure[m] = false;
+    if (verifier_.experienced(m) && best.probabilities[m] < settings_.thresholds.surely_above)
+      sure[m] = false;
   if (any(sure) && !occlusion_.hidden()) learn(frame, best, sure);
 }
 
 void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {
   constexpr int kAtFirst = 10, kEvery = 4;  // frames
   const bool is_time = learned_ < kAtFirst || learned_ % kEvery == 0;
-  if (settings_.evidence && !std::isnan(best.probability()) && is_time) {
+  if (settings_.judged && !std::isnan(best.probability()) && is_time) {
     const Eigen::VectorXd drawn = search_.drawn(best.found.state);
     if (!verifier_.verified(drawn))
       verifier_.verify(frame, drawn, search_.second_view_colors(), best.shown);

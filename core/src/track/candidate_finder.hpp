@@ -110,7 +110,7 @@ class CandidateFinder {
   Candidate go_on(const Frame& frame, const Candidate& from, std::uint64_t seed);
 
   /// Records the final candidate of a frame. Learns from those tracked models that are surely right
-  /// (StatusSettings::surely_above).
+  /// (JudgeThresholds::surely_above).
   void accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
 
   /// Returns whether a detector of a model is among the starts.

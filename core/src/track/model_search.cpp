@@ -239,7 +239,7 @@ void CandidateFinder::ModelSearch::search_only_near(const std::vector<Eigen::Vec
 
 void CandidateFinder::ModelSearch::ask_starts() {
   const auto is_good = [&](const Candidate& one) {
-    return one.probability() >= finder_.settings_.surely_above;
+    return one.probability() >= finder_.settings_.thresholds.surely_above;
   };
   const bool never_seen = !std::isfinite(request_.seconds[model_]);
   // Where several models are denied at once, none of them is shown yet.

@@ -44,7 +44,7 @@ void StatusMonitor::remember(double cost) {
 Status StatusMonitor::judge(const StatusEvidence& evidence) {
   const Status status = decide(evidence);
   constexpr int kAtOnce = 1000;  // a tracked scene stays tracked
-  const bool would_do = evidence.probability >= settings_.tracked_above;
+  const bool would_do = evidence.probability >= settings_.thresholds.tracked_above;
   steady_ = status == Status::tracked ? kAtOnce : would_do ? steady_ + 1 : 0;
   if (status == Status::tracked) ever_tracked_ = true;
   return status;
@@ -56,13 +56,13 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
   if (!std::isfinite(evidence.cost) || evidence.visible < settings_.min_visible ||
       evidence.sigma > settings_.lost_sigma ||
       evidence.foreground_overlap == ForegroundOverlap::nowhere ||
-      (evidence.probability < settings_.uncertain_above && !evidence.recognized)) {
+      (evidence.probability < settings_.thresholds.uncertain_above && !evidence.recognized)) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
   if (std::isnan(evidence.probability)) return judge_by_cost(evidence);
   const double enough =
-      evidence.confirmed ? std::min(needed(), settings_.confirmed_above) : needed();
+      evidence.confirmed ? std::min(needed(), settings_.thresholds.confirmed_above) : needed();
   const bool doubtful = evidence.probability < enough ||
                         evidence.visible < 2 * settings_.min_visible ||
                         evidence.foreground_overlap == ForegroundOverlap::in_parts ||

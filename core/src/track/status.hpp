@@ -3,9 +3,11 @@
 #include <deque>
 
 #include "base/exported.hpp"
+#include "hypotrack/judge.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/solution.hpp"
 #include "tile/foreground_overlap.hpp"
+#include "track/former_judge_keys.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/recovery_settings.hpp"
 #include "track/uncertainty_settings.hpp"
@@ -15,12 +17,6 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// `tracker:` of a scene.
 struct StatusSettings {
-  bool evidence = true;
-  double tracked_above = 0.55;
-  double surely_above = 0.75;
-  double first_above = 0.35;
-  double confirmed_above = 0.45;
-  double uncertain_above = 0.15;
   MotionLimits motion;
   RecoverySettings recovery;
   int history = 30;
@@ -31,28 +27,11 @@ struct StatusSettings {
   double lost_sigma = 0.040;
   UncertaintySettings uncertainty;
   bool check_pictures = true;
+  // Of the scene's judge, which has its own section.
+  bool judged = false;  ///< by a judge, who looks at the pictures; false: by costs alone
+  JudgeThresholds thresholds = {};
+  FormerJudgeKeys former = {};
   void visit(ParamVisitor& v) {
-    v("evidence", evidence,
-      {.help = "judge solutions by what both pictures show where the models are; off: by their "
-               "costs alone"});
-    v("tracked_above", tracked_above,
-      {.help = "with `evidence`: tracked from this probability of being right on",
-       .min = 0,
-       .max = 1});
-    v("surely_above", surely_above,
-      {.help = "with `evidence`: the same just after a loss; less probable frames teach no colours",
-       .min = 0,
-       .max = 1});
-    v("first_above", first_above,
-      {.help = "with `evidence`: the same before a model was ever tracked, where a start was given",
-       .min = 0,
-       .max = 1});
-    v("confirmed_above", confirmed_above,
-      {.help = "with `evidence`: the same where searches from other starts end in the same pose",
-       .min = 0,
-       .max = 1});
-    v("uncertain_above", uncertain_above,
-      {.help = "with `evidence`: lost below this probability", .min = 0, .max = 1});
     v("motion", motion, {.help = "how fast models move at most"});
     v("recovery", recovery, {.help = "how lost models are found again"});
     v("history", history,
@@ -82,6 +61,7 @@ struct StatusSettings {
     v("check_pictures", check_pictures,
       {.help = "do not search frames with frozen, exchanged, black, white or doubled views, and "
                "report jumps of brightness"});
+    former.visit(v);
   }
 };
 
@@ -109,12 +89,13 @@ class StatusMonitor {
   /// less before anything was tracked.
   double needed() const {
     constexpr int kSteady = 4;  // frames in a row that reach `tracked_above`
-    if (!ever_tracked_) return settings_.first_above;
-    return steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
+    if (!ever_tracked_) return settings_.thresholds.first_above;
+    return steady_ < kSteady ? settings_.thresholds.surely_above
+                             : settings_.thresholds.tracked_above;
   }
 
   /// Asks of the first pose what is asked of later ones: no start tells where the model is.
-  void expect_no_start() { settings_.first_above = settings_.tracked_above; }
+  void expect_no_start() { settings_.thresholds.first_above = settings_.thresholds.tracked_above; }
   /// Asks of the first pose what is asked just after a loss: the start was wrong.
   void distrust_start() { ever_tracked_ = true; }
 

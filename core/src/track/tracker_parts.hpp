@@ -7,6 +7,7 @@
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
+#include "hypotrack/judge.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/start.hpp"
@@ -30,6 +31,7 @@ struct TrackerParts {
   PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings status;
+  std::shared_ptr<const Judge> judge = {};  ///< null: solutions are judged by their costs
   OneEuroSettings one_euro;
   FixedLagSettings fixed_lag;
   Budget budget;                          ///< 0 evaluations: the optimizer's default

@@ -18,6 +18,7 @@ class TrackerFile : public test::SceneFolder {
           "objective: [{type: colors, weight: 2}, {type: skin}]\n"
           "optimizer: {type: pso, particles: 16}\n"
           "budget: {evaluations: 32, seconds: 1}\n"
+          "judge: plain\n"
           "tracker: {history: 40}\n");
   }
 };
@@ -27,6 +28,7 @@ TEST_F(TrackerFile, GivesASceneAllItsKeys) {
   EXPECT_EQ(root.get("objective").at(1).get("type").scalar(), "skin");
   EXPECT_EQ(root.get("optimizer").get("particles").scalar(), "16");
   EXPECT_EQ(root.get("tracker").to_yaml(), "history: 40\n");
+  EXPECT_EQ(root.get("judge").scalar(), "plain");
   EXPECT_EQ(root.get("seed").scalar(), "1");
   EXPECT_EQ(root.get("optimizer").where(), file("trackers/quick.yaml").string() + ":2:12");
 }
@@ -49,7 +51,7 @@ TEST_F(TrackerFile, IsNotMixedWithAPartOfAnotherType) {
 TEST_F(TrackerFile, OfAnOverrideReplacesTheWholeTrackerOfTheScene) {
   const std::string scene =
       "tracker: \"@trackers/other\"\nobjective: {type: other}\nsearch: {position_mm: 9}\n"
-      "seed: 1\n";
+      "judge: none\nseed: 1\n";
   const std::string name = "@" + file("trackers/quick").string();
   for (const std::string& value : {name, "\"" + name + "\"", "{from: \"" + name + "\"}"}) {
     const ConfigNode root = load(scene, {"tracker=@none", "optimizer.particles=8",
@@ -57,6 +59,7 @@ TEST_F(TrackerFile, OfAnOverrideReplacesTheWholeTrackerOfTheScene) {
     EXPECT_EQ(root.get("objective").at(0).get("type").scalar(), "colors") << value;
     EXPECT_EQ(root.get("optimizer").get("particles").scalar(), "8") << value;
     EXPECT_FALSE(root.get("search").defined()) << value;
+    EXPECT_EQ(root.get("judge").scalar(), "plain") << value;
     EXPECT_EQ(root.get("tracker").to_yaml(), "history: 40\npatience: 3\n") << value;
     EXPECT_EQ(root.get("seed").scalar(), "1") << value;
   }

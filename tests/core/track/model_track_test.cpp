@@ -77,11 +77,11 @@ TEST_F(ModelTrackTest, IsSoughtWithoutAStartAndTentativeUntilItIsLearned) {
 
 TEST_F(ModelTrackTest, NeedsMoreAfterItLeftItsStart) {
   ModelTrack one = track();
-  EXPECT_EQ(one.needed(), StatusSettings().first_above);
-  EXPECT_EQ(track(false).needed(), StatusSettings().tracked_above);
+  EXPECT_EQ(one.needed(), JudgeThresholds().first_above);
+  EXPECT_EQ(track(false).needed(), JudgeThresholds().tracked_above);
   one.leave_start();
   EXPECT_EQ(one.phase(), Phase::sought);
-  EXPECT_EQ(one.needed(), StatusSettings().surely_above);
+  EXPECT_EQ(one.needed(), JudgeThresholds().surely_above);
 }
 
 TEST_F(ModelTrackTest, ExtrapolatesTheLastRightPoseByItsFadingMotion) {

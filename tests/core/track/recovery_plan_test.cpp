@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "judges.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
@@ -43,6 +44,7 @@ class RecoveryPlanTest : public testing::Test {
     parts.optimizer = std::make_unique<Staying>();
     parts.objective = {{1.0, std::make_shared<Drawn>()}};
     parts.begins_by_looking = !is_given;
+    parts.judge = std::make_shared<test::SameForAll>(0);
     parts.status.recovery.run = run;
     loop_ = std::make_unique<LoopState>(scene_, parts, scene_.rest_state(), 1);
     return *loop_;

@@ -9,6 +9,7 @@
 
 #include "base/stop_scope.hpp"
 #include "hypotrack/start_points.hpp"
+#include "judges.hpp"
 #include "test_models.hpp"
 #include "track/loop/scene_tracker.hpp"
 
@@ -95,6 +96,7 @@ struct Stoppable {
   std::unique_ptr<SceneTracker> make_endless() {
     distance = std::make_shared<Distance>(true);
     TrackerParts endless = parts();
+    endless.judge = std::make_shared<test::SameForAll>(0);
     endless.status.recovery.run = RecoveryRun::background;
     endless.begins_by_looking = true;
     endless.starts.push_back(std::make_unique<EndlessStart>(begun));

@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "judges.hpp"
 #include "painted_box.hpp"
 #include "track/occlude/occluder_finder.hpp"
 #include "track/verify/pose_verifier.hpp"
@@ -46,7 +47,7 @@ class OccluderTest : public testing::Test {
   }
 
   test::PaintedBox box_;
-  PoseVerifier verifier_{box_.scene, box_.cameras};
+  PoseVerifier verifier_{box_.scene, box_.cameras, std::make_shared<test::AgreementOnly>()};
 };
 
 TEST_F(OccluderTest, FindsNothingBeforeAModelThatBothViewsShow) {
@@ -61,14 +62,14 @@ TEST_F(OccluderTest, FindsAPlainCardBeforeHalfOfTheModel) {
 
 TEST_F(OccluderTest, LeavesHiddenPartsOutOfTheEvidence) {
   const Frame frame = with_card({40, 200, 40});
-  const Evidence naive = verifier_.model(0).measure_evidence(frame, box_.state(), {});
+  const Measures naive = verifier_.model(0).measured(frame, box_.state(), {});
   verifier_.hide(std::make_shared<const HiddenViews>(find(frame)));
-  const Evidence evidence = verifier_.model(0).measure_evidence(frame, box_.state(), {});
-  EXPECT_LT(naive[Evidence::kInside], 0.7);
-  EXPECT_GT(evidence[Evidence::kInside], naive[Evidence::kInside] + 0.2);
-  EXPECT_NEAR(evidence.covered, 0.5, 0.12);
+  const Measures measures = verifier_.model(0).measured(frame, box_.state(), {});
+  EXPECT_LT(naive[Measures::kInside], 0.7);
+  EXPECT_GT(measures[Measures::kInside], naive[Measures::kInside] + 0.2);
+  EXPECT_NEAR(measures.covered, 0.5, 0.12);
   verifier_.hide(nullptr);
-  EXPECT_LT(verifier_.model(0).measure_evidence(frame, box_.state(), {}).covered, 0.05);
+  EXPECT_LT(verifier_.model(0).measured(frame, box_.state(), {}).covered, 0.05);
 }
 
 TEST_F(OccluderTest, CountsHiddenPixelsOfTilesAsOutsideThePicture) {

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <memory>
 
+#include "judges.hpp"
 #include "painted_box.hpp"
 
 namespace hypotrack {
@@ -11,74 +14,93 @@ namespace {
 
 class PoseVerifierTest : public testing::Test {
  protected:
-  Evidence evidence_at(double x) {
+  Measures measures_at(double x) {
     ModelVerifier verifier(box_.scene, 0, box_.cameras);
-    return verifier.measure_evidence(box_.frame(), box_.state(x), {});
+    return verifier.measured(box_.frame(), box_.state(x), {});
   }
 
   test::PaintedBox box_;
+  std::shared_ptr<const Judge> judge_ = std::make_shared<test::AgreementOnly>();
 };
 
 TEST_F(PoseVerifierTest, BothViewsAgreeWhereTheModelIs) {
-  const Evidence right = evidence_at(0), wrong = evidence_at(0.06);
+  const Measures right = measures_at(0), wrong = measures_at(0.06);
   ASSERT_TRUE(right.known);
   ASSERT_TRUE(wrong.known);
-  for (const auto index : {Evidence::kCorrelation, Evidence::kTexture, Evidence::kAgreement,
-                           Evidence::kWorstAgreement})
-    EXPECT_GT(right[index], wrong[index] + 0.2) << evidence_names()[index];
-  EXPECT_LT(right[Evidence::kDifference], wrong[Evidence::kDifference]);
-  EXPECT_GT(right[Evidence::kAgreement], 0.9);
+  for (const auto index : {Measures::kCorrelation, Measures::kTexture, Measures::kAgreement,
+                           Measures::kWorstAgreement})
+    EXPECT_GT(right[index], wrong[index] + 0.2) << measure_infos()[index].name;
+  EXPECT_LT(right[Measures::kDifference], wrong[Measures::kDifference]);
+  EXPECT_GT(right[Measures::kAgreement], 0.9);
 }
 
 TEST_F(PoseVerifierTest, ALongThinModelIsMeasuredAsWell) {
   const test::PaintedBox stick(0.5, 0.02);
   ModelVerifier verifier(stick.scene, 0, stick.cameras);
-  const Evidence right = verifier.measure_evidence(stick.frame(), stick.state(), {});
+  const Measures right = verifier.measured(stick.frame(), stick.state(), {});
   ASSERT_TRUE(right.known);
-  EXPECT_GT(right[Evidence::kAgreement], 0.8);
-  EXPECT_GT(right[Evidence::kTexture], 0.5);
+  EXPECT_GT(right[Measures::kAgreement], 0.8);
+  EXPECT_GT(right[Measures::kTexture], 0.5);
 }
 
 TEST_F(PoseVerifierTest, SurfacesBesideTheSilhouetteDoNotAgree) {
-  const Evidence right = evidence_at(0);
-  EXPECT_LT(right[Evidence::kRingTexture], 0.5 * right[Evidence::kTexture]);
+  const Measures right = measures_at(0);
+  EXPECT_LT(right[Measures::kRingTexture], 0.5 * right[Measures::kTexture]);
 }
 
 TEST_F(PoseVerifierTest, LearnedColorsTellTheModelFromWhatIsBesideIt) {
   ModelVerifier verifier(box_.scene, 0, box_.cameras);
-  const Evidence before = verifier.measure_evidence(box_.frame(), box_.state(), {});
-  EXPECT_EQ(before[Evidence::kInside], 0.5);
+  const Measures before = verifier.measured(box_.frame(), box_.state(), {});
+  EXPECT_EQ(before[Measures::kInside], 0.5);
   EXPECT_FALSE(verifier.experienced());
   verifier.learn(before);
   EXPECT_TRUE(verifier.experienced());
-  const Evidence right = verifier.measure_evidence(box_.frame(), box_.state(), {});
-  EXPECT_GT(right[Evidence::kInside], 0.7);
-  EXPECT_LT(right[Evidence::kRing], 0.3);
-  const Evidence wrong = verifier.measure_evidence(box_.frame(), box_.state(0.1), {});
-  EXPECT_LT(wrong[Evidence::kInside], right[Evidence::kInside] - 0.3);
+  const Measures right = verifier.measured(box_.frame(), box_.state(), {});
+  EXPECT_GT(right[Measures::kInside], 0.7);
+  EXPECT_LT(right[Measures::kRing], 0.3);
+  const Measures wrong = verifier.measured(box_.frame(), box_.state(0.1), {});
+  EXPECT_LT(wrong[Measures::kInside], right[Measures::kInside] - 0.3);
 }
 
-TEST_F(PoseVerifierTest, FeaturesHaveDifferencesToWhatIsUsualOnceItIsKnown) {
-  constexpr Eigen::Index kCount = Evidence::kCount;
+TEST_F(PoseVerifierTest, MeasuresKnowWhatIsUsualOnceItWasLearned) {
   ModelVerifier verifier(box_.scene, 0, box_.cameras);
-  const Evidence evidence = verifier.measure_evidence(box_.frame(), box_.state(), {});
-  EXPECT_EQ(verifier.features(evidence).tail(kCount).norm(), 0);
-  verifier.learn(evidence);
-  const Evidence off = verifier.measure_evidence(box_.frame(), box_.state(0.03), {});
-  EXPECT_LT(verifier.features(off)[kCount + Evidence::kAgreement], -0.1);
+  const Measures before = verifier.measured(box_.frame(), box_.state(), {});
+  EXPECT_FALSE(before.experienced);
+  EXPECT_EQ(before.usual[Measures::kAgreement], 0);
+  verifier.learn(before);
+  const Measures off = verifier.measured(box_.frame(), box_.state(0.03), {});
+  EXPECT_TRUE(off.experienced);
+  EXPECT_GT(off.usual[Measures::kAgreement], off[Measures::kAgreement] + 0.1);
+}
+
+TEST_F(PoseVerifierTest, MeasuresSayWhetherTheModelWasTrackedAndWhichItIs) {
+  ModelVerifier verifier(box_.scene, 0, box_.cameras);
+  EXPECT_FALSE(verifier.measured(box_.frame(), box_.state(), {}).tracked);
+  verifier.set_tracked(true);
+  const Measures measures = verifier.measured(box_.frame(), box_.state(), {});
+  EXPECT_TRUE(measures.tracked);
+  EXPECT_EQ(measures.model, 0u);
 }
 
 TEST_F(PoseVerifierTest, AModelThatNoCameraSeesIsSurelyWrong) {
-  ModelVerifier verifier(box_.scene, 0, box_.cameras);
+  PoseVerifier verifier(box_.scene, box_.cameras, judge_);
   Eigen::VectorXd behind = box_.state();
   behind[2] = -1;
-  const Evidence evidence = verifier.measure_evidence(box_.frame(), behind, {});
-  EXPECT_FALSE(evidence.known);
-  EXPECT_EQ(verifier.log_odds(evidence), -std::numeric_limits<double>::infinity());
+  const Measures measures = verifier.model(0).measured(box_.frame(), behind, {});
+  EXPECT_FALSE(measures.known);
+  EXPECT_EQ(verifier.log_odds(measures), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(verifier.verify(box_.frame(), behind, {}, {true})[0], 0);
+}
+
+TEST_F(PoseVerifierTest, TheProbabilityIsThatOfTheJudgesLogOdds) {
+  PoseVerifier verifier(box_.scene, box_.cameras, judge_);
+  const Measures measures = verifier.model(0).measured(box_.frame(), box_.state(), {});
+  const double odds = std::exp(judge_->log_odds(measures));
+  EXPECT_NEAR(verifier.verify(box_.frame(), box_.state(), {}, {true})[0], odds / (1 + odds), 1e-12);
 }
 
 TEST_F(PoseVerifierTest, KnowsNothingWithoutColorsInTwoViews) {
-  PoseVerifier verifier(box_.scene, box_.cameras);
+  PoseVerifier verifier(box_.scene, box_.cameras, judge_);
   Frame frame = box_.frame();
   EXPECT_FALSE(std::isnan(verifier.verify(frame, box_.state(), {}, {true})[0]));
   frame.views[1].color.release();
@@ -86,7 +108,7 @@ TEST_F(PoseVerifierTest, KnowsNothingWithoutColorsInTwoViews) {
 }
 
 TEST_F(PoseVerifierTest, FindsTheRightPlaceLikelierThanOthers) {
-  PoseVerifier verifier(box_.scene, box_.cameras);
+  PoseVerifier verifier(box_.scene, box_.cameras, judge_);
   const Frame frame = box_.frame();
   verifier.verify(frame, box_.state(), {}, {true});
   verifier.learn({true});
@@ -95,23 +117,8 @@ TEST_F(PoseVerifierTest, FindsTheRightPlaceLikelierThanOthers) {
     EXPECT_LT(verifier.verify(frame, box_.state(x), {}, {true})[0], right) << x;
 }
 
-TEST_F(PoseVerifierTest, CountsLikenessHalfForATrackedModel) {
-  ModelVerifier verifier(box_.scene, 0, box_.cameras);
-  for (int k = 0; k < 3; ++k)
-    verifier.learn(verifier.measure_evidence(box_.frame(), box_.state(), {}));
-  Evidence evidence = verifier.measure_evidence(box_.frame(), box_.state(), {});
-  ASSERT_GT(verifier.usual_likeness(), 0);
-  evidence.likeness = verifier.usual_likeness();
-  const double alike = verifier.log_odds(evidence);
-  evidence.likeness = verifier.usual_likeness() - 0.5;
-  const double unlike = verifier.log_odds(evidence);
-  EXPECT_LT(unlike, alike);
-  verifier.set_tracked(true);
-  EXPECT_NEAR(verifier.log_odds(evidence), (alike + unlike) / 2, 1e-9);
-}
-
 TEST_F(PoseVerifierTest, RemembersWhichStateItVerifiedLast) {
-  PoseVerifier verifier(box_.scene, box_.cameras);
+  PoseVerifier verifier(box_.scene, box_.cameras, judge_);
   EXPECT_FALSE(verifier.verified(box_.state()));
   verifier.verify(box_.frame(), box_.state(), {}, {true});
   EXPECT_TRUE(verifier.verified(box_.state()));

@@ -56,7 +56,7 @@ TEST_F(BenchTest, EverySceneInEveryWayIsARow) {
   scene(box_scene(), "other.yaml");
   const Outcome outcome =
       bench(replaced(table(), "grid:", "  other: {file: other.yaml, set: {tile.size: 48}}\ngrid:"),
-            {"--set", "tracker.evidence=false"});
+            {"--set", "judge=none"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(column("scene"), ElementsAre("One box", "One box", "other", "other"));
   EXPECT_THAT(column("backend"), ElementsAre("cpu", "one", "cpu", "one"));

@@ -139,7 +139,7 @@ TEST_F(FitShapeTest, RefusesFramesInWhichTheModelIsElsewhere) {
   // Beside the hand, covering a pixel costs more than it explains; one evaluation does not move it.
   expect_refusal(
       fit(kHand, {"--set", "objective={type: skin, foreground: mask}", "--set", "init.away_mm=120",
-                  "--set", "budget.evaluations=1", "--set", "tracker.evidence=false"}),
+                  "--set", "budget.evaluations=1", "--set", "judge=none"}),
       {"shape: in most of the 8 tracked frames", "look at the overlay of a run"});
 }
 

@@ -43,6 +43,10 @@ class PluginErrorsTest : public AppTest {
         replaced(text, "  type: synthetic",
                  "  type: failing\n  how: " + how + "\n  source:\n    type: synthetic"));
   }
+  /// Runs a scene whose judge fails after a few poses.
+  Outcome run_judge(const std::string& how) const {
+    return run_with(box_scene() + "judge: {type: failing, how: " + how + "}\n");
+  }
   /// Runs a scene with an output that fails at frame 3.
   Outcome run_output(const std::string& how) const {
     return run_with(replaced(box_scene(), "output: {overlay: false}",
@@ -178,6 +182,14 @@ TEST_F(PluginErrorsTest, ASourceThatEndsBeforeItsAnnouncedEndIsSaidOnce) {
                                                   "after 3 frames, it announced 40"));
 }
 
+TEST_F(PluginErrorsTest, AnExceptionOrNanOfAJudgeNamesItAndTheFrame) {
+  for (const auto& [how, what] :
+       {std::pair{"exception", "threw std::runtime_error: the judge is broken"},
+        std::pair{"int", "threw int, which is no std::exception"},
+        std::pair{"nan", "the log odds of a pose are NaN, expected a number or an infinity"}})
+    expect_named(run_judge(how), "judge 'failing'", "libhypotrack_judge_failing.so", what);
+}
+
 TEST_F(PluginErrorsTest, AnExceptionOfAnOutputNamesItAndTheFrame) {
   for (const auto& [how, what] :
        {std::pair{"exception", "threw std::runtime_error: the output is broken"},
@@ -204,6 +216,7 @@ TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
        {std::pair{"optimizer", run_optimizer("segfault")},
         std::pair{"objective", run_objective("segfault")},
         std::pair{"model", run_model("segfault")}, std::pair{"output", run_output("segfault")},
+        std::pair{"judge", run_judge("segfault")},
         std::pair{"optimizer", run_optimizer("stack_overflow")},
         std::pair{"objective", run_objective("stack_overflow")}}) {
     EXPECT_EQ(outcome.exit_code, 128 + SIGSEGV) << kind;

@@ -201,7 +201,7 @@ TEST_F(RunTest, SaysOnceThatThePicturesContradictAStart) {
     });
   };
   EXPECT_EQ(notes(run(elsewhere)), 1);
-  EXPECT_EQ(notes(run(elsewhere, {"--set", "tracker.evidence=false"})), 0);
+  EXPECT_EQ(notes(run(elsewhere, {"--set", "judge=none"})), 0);
   EXPECT_EQ(notes(run(box_scene())), 0);
 }
 
@@ -275,10 +275,9 @@ std::vector<int> evaluations_in(const std::filesystem::path& table) {
 TEST_F(RunTest, FixedLagSmoothingLeavesWhatWasFoundBesideTheTables) {
   const std::string file = scene(box_scene());
   const auto track = [&](const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"run",   file,
-                                       "--out", path(out).string(),
-                                       "--set", "search.rotation_as=tangent",
-                                       "--set", "tracker.evidence=false"};
+    std::vector<std::string> arguments{
+        "run",   file,        "--out", path(out).string(), "--set", "search.rotation_as=tangent",
+        "--set", "judge=none"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -111,7 +111,7 @@ TEST_F(ShellFilesTest, BashCompletesCommandsOptionsAndValues) {
   write_text(path("my scene.yaml"), "");
   EXPECT_THAT(in_bash("hypotrack va"), ElementsAre("validate"));
   EXPECT_THAT(in_bash("hypotrack plugins ''"),
-              ElementsAre("list", "info", "capabilities", "new", "check"));
+              ElementsAre("list", "info", "capabilities", "measures", "new", "check"));
   EXPECT_THAT(in_bash("hypotrack run --fr"), ElementsAre("--frames"));
   EXPECT_THAT(in_bash("hypotrack evaluate --units ''"), ElementsAre("m", "cm", "mm"));
   EXPECT_THAT(in_bash("hypotrack new scene a.yaml --tracker real"),
@@ -162,7 +162,7 @@ TEST_F(ShellFilesTest, FishCompletesCommandsAndOptions) {
   };
   EXPECT_THAT(completed("hypotrack eval"), ElementsAre("evaluate"));
   EXPECT_THAT(completed("hypotrack plugins "),
-              ElementsAre("capabilities", "check", "info", "list", "new"));
+              ElementsAre("capabilities", "check", "info", "list", "measures", "new"));
   EXPECT_THAT(completed("hypotrack run --fra"), ElementsAre("--frames"));
   EXPECT_THAT(completed("hypotrack new scene a.yaml --model two"), ElementsAre("two_hands"));
 }

@@ -181,8 +181,7 @@ TEST(Lost, SearchesInTheBackgroundWithoutStoppingTheVideo) {
 }
 
 TEST(Lost, GoesOnFromAnyAnswerAsThePaperDoesWhereItIsToldTo) {
-  const auto frames =
-      track(14, {absent(10, 10), "tracker.recovery.enabled=false", "tracker.evidence=false"});
+  const auto frames = track(14, {absent(10, 10), "tracker.recovery.enabled=false", "judge=none"});
   EXPECT_TRUE(
       std::ranges::none_of(frames, [](const Tracked& f) { return f.status == Status::absent; }));
 }

@@ -74,7 +74,7 @@ TEST(LookedFor, PrintedBoxesAreFoundTheRightWayRound) {
 
 TEST(LookedFor, ModelsNeedTwoViewsAndARecovery) {
   EXPECT_THROW(track_unstarted(1, {"tracker.recovery.enabled=false"}), ConfigError);
-  EXPECT_THROW(track_unstarted(1, {"tracker.evidence=false"}), ConfigError);
+  EXPECT_THROW(track_unstarted(1, {"judge=none"}), ConfigError);
 }
 
 /// Proposes one pose of a model whenever it is asked.
@@ -91,16 +91,22 @@ class AlwaysThere final : public Start {
   Eigen::VectorXd pose_;
 };
 
+/// Returns an override that gives the judge one value for all thresholds.
+std::string all_thresholds(int value) {
+  std::string out = "judge={type: network";
+  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
+    out += ", " + std::string(key) + "_above: " + std::to_string(value);
+  return out + "}";
+}
+
 /// Tracks a hand from 150 mm beside it with a tracker that believes any pose; returns the last
 /// frame's error in metres. A start knows better.
 double last_error_of_a_believer(double check_s) {
   PluginLoader plugins;
-  std::vector<std::string> overrides{
-      "evaluate.backend=cpu", "tracker.recovery.first_starts=1",
+  const std::vector<std::string> overrides{
+      "evaluate.backend=cpu", "tracker.recovery.first_starts=1", all_thresholds(0),
       "tracker.recovery.check_s=" + std::to_string(check_s),
       "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
-  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
-    overrides.push_back("tracker." + std::string(key) + "_above=0");
   OpenedScene session =
       open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
   std::optional<SceneTracker> tracker;
@@ -189,35 +195,26 @@ Doubted track_doubted(int frames, Frames seen, std::vector<std::string> override
 }
 
 TEST(LookedFor, WhatAStartWouldRecogniseAndDoesNotSeeIsSearchedEverMoreSeldom) {
-  const Doubted found = track_doubted(15, {100, 100}, {"tracker.confirmed_above=0"});
+  const Doubted found =
+      track_doubted(15, {100, 100}, {"judge={type: network, confirmed_above: 0}"});
   EXPECT_EQ(found.searches, 2) << "in the first frame and the fourth";
   for (const Status status : found.statuses) EXPECT_EQ(status, Status::lost);
 }
 
 TEST(LookedFor, WhatAStartSeesElsewhereOnlyIsFoundThere) {
-  std::vector<std::string> believe{"tracker.recovery.check_s=0.1"};
-  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
-    believe.push_back("tracker." + std::string(key) + "_above=0");
-  const Doubted found = track_doubted(14, {2, 100}, believe);
+  const Doubted found =
+      track_doubted(14, {2, 100}, {"tracker.recovery.check_s=0.1", all_thresholds(0)});
   EXPECT_LT(found.error, 0.02);
 }
 
-/// Returns settings with which the pictures deny every pose.
-std::vector<std::string> disbelieve() {
-  std::vector<std::string> out;
-  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
-    out.push_back("tracker." + std::string(key) + "_above=1");
-  return out;
-}
-
 TEST(LookedFor, PosesThatAStartRecognisesAreFollowedThoughThePicturesDenyThem) {
-  const Doubted found = track_doubted(15, {0, 100}, disbelieve());
+  const Doubted found = track_doubted(15, {0, 100}, {all_thresholds(1)});
   for (const Status status : found.statuses) EXPECT_EQ(status, Status::uncertain);
   EXPECT_LT(found.error, 0.01);
 }
 
 TEST(LookedFor, RecognisedPosesAreLostHalfASecondAfterTheyWereSeenLast) {
-  const Doubted found = track_doubted(24, {0, 4}, disbelieve());
+  const Doubted found = track_doubted(24, {0, 4}, {all_thresholds(1)});
   EXPECT_EQ(found.statuses[17], Status::uncertain);
   EXPECT_EQ(found.statuses[22], Status::lost);
 }
@@ -272,10 +269,8 @@ TEST(LookedFor, AHandThatIsAnotherModelsIsNotTaken) {
       "budget.evaluations=60",
       "tile.size=128",
       "tracker.recovery.check_s=0",
-      "tracker.surely_above=0.05",
-      "tracker.tracked_above=0.05",
-      "tracker.confirmed_above=0.05",
-      "tracker.uncertain_above=0.02",
+      "judge={type: network, surely_above: 0.05, tracked_above: 0.05, confirmed_above: 0.05, "
+      "uncertain_above: 0.02}",
       "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
       "source.faults=[{frames: [3, 5], kind: absent}, {frames: [6, 99], kind: absent, model: "
       "left}]"};

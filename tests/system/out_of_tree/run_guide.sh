@@ -22,7 +22,7 @@ extract_blocks() {
     }
     out { print > out }' "$guide"
   local file
-  for file in silhouette.cpp hill_climb.cpp can.cpp in_front.cpp trajectory.cpp CMakeLists.txt scene.yaml step_build.sh \
+  for file in silhouette.cpp hill_climb.cpp can.cpp in_front.cpp same_colors.cpp trajectory.cpp CMakeLists.txt scene.yaml step_build.sh \
     step_run.sh fast_silhouette{-inl.hpp,.hpp,.cpp,.cu} no_cuda.cpp upright{.hpp,.cpp,.cu} \
     upright_no_cuda.cpp euroc.cpp standing_can.yaml step_run_standing.sh; do
     [ -s "$file" ] || fail "the guide has no block for $file"

@@ -46,7 +46,7 @@ Found search(PluginLoader& plugins, const std::string& objective, const std::str
         std::vector<std::string>{"objective=" + objective, "optimizer=" + optimizer,
                                  fmt::format("budget.evaluations={}", evaluations),
                                  "search={rotation_as: tangent}", "source.sensor.gain=[1, 1.16]",
-                                 "evaluate.backend=cpu", "tracker.evidence=false", "init.away_mm=6",
+                                 "evaluate.backend=cpu", "judge=none", "init.away_mm=6",
                                  "init.away_deg=3", fmt::format("seed={}", seed)},
         plugins);
   };

@@ -82,7 +82,7 @@ Eigen::VectorXd displaced(Eigen::VectorXd state, double metres, double radians,
   return state;
 }
 
-/// Searches the pair once from `start`; the seed is the search's.
+/// Searches the pair once from `start`, without a judge; the seed is the search's.
 Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start, int size,
                 std::uint64_t seed, PluginLoader& plugins) {
   TrackerParts parts;
@@ -90,7 +90,6 @@ Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start
   parts.objective = stb.session.parts.objective;
   parts.tile = stb.session.parts.tile;
   parts.photometric.match = false;  // as the caller has left the frame
-  parts.status.evidence = false;    // one search
   parts.optimizer = plugins.make<Optimizer>(ConfigNode::parse(
       fmt::format("{{type: pso, particles: {0}, generations: {0}}}", size), "stb test"));
   SceneTracker tracker(*stb.session.scene, std::move(parts), start, seed);

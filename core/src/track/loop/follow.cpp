@@ -54,7 +54,7 @@ Candidate follow(LoopState& loop, const Frame& frame) {
       loop.trail.predicted(frame.time, loop.tiles(), finder.budget().evaluations);
   Candidate best = finder.follow(frame, starts, models, budget, reach, loop.seed_of(frame));
   if (loop.recovers() && loop.given.expects_any() && !finder.verifier().experienced() &&
-      best.probability() < loop.settings.uncertain_above)
+      best.probability() < loop.settings.thresholds.uncertain_above)
     begin_again(loop, frame, best);
   return best;
 }

@@ -90,7 +90,8 @@ StatusEvidence FrameJudge::evidence_of(std::size_t model, const Frame& frame, co
   own.recognized = best.is_recognized(model);
   own.confirmed = best.confirmed[model] || best.unseen[model] <= 0;
   // What has left the pictures takes more evidence to be back.
-  const bool is_back = own.probability >= loop_.settings.confirmed_above || own.recognized;
+  const bool is_back =
+      own.probability >= loop_.settings.thresholds.confirmed_above || own.recognized;
   const bool is_found = best.answers() && best.shown[model] && is_back;
   const bool is_gone =
       loop_.recovers() && !is_found && loop_.tracks.departure().is_gone(model, frame.time);

@@ -1,14 +1,16 @@
 #include "track/loop/loop_state.hpp"
 
 #include <utility>
-#include <vector>
 
 namespace hypotrack::internal {
 namespace {
 
-/// Turns evidence off where no term looks at pictures.
-StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveTerm>& terms) {
-  settings.evidence = settings.evidence && look_at_pictures(terms);
+/// Returns the settings with those of the judge, who is not asked where no term looks at pictures.
+StatusSettings with_judge(const TrackerParts& parts) {
+  StatusSettings settings = parts.status;
+  if (!parts.judge) return settings;
+  settings.judged = look_at_pictures(parts.objective);
+  settings.thresholds = parts.judge->thresholds();
   return settings;
 }
 
@@ -17,7 +19,7 @@ StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveT
 LoopState::LoopState(const Scene& of, TrackerParts& parts, Eigen::VectorXd start,
                      std::uint64_t seed_of_frames)
     : scene(of),
-      settings(of_pictures(parts.status, parts.objective)),
+      settings(with_judge(parts)),
       seed(seed_of_frames),
       given(of, std::move(start), !parts.begins_by_looking),
       finder(of, parts, settings),

@@ -34,7 +34,7 @@ struct LoopState {
   Trail trail;
 
   /// Returns whether lost models are looked for.
-  bool recovers() const { return settings.recovery.enabled && settings.evidence; }
+  bool recovers() const { return settings.recovery.enabled && settings.judged; }
   /// Returns whether models may be looked for that a candidate lacks: pictures must tell which of
   /// several poses is right.
   bool can_recover(const Candidate& best) const {

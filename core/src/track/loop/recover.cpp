@@ -21,7 +21,7 @@ void forget_contradicted(LoopState& loop, const ModelFlags& checked, Candidate& 
 /// Returns whether pictures support all models where starts that recognise them see them.
 bool is_agreed(const LoopState& loop, const Candidate& best) {
   for (std::size_t m = 0; m < loop.tracks.size(); ++m)
-    if (!(best.unseen[m] <= 0 && best.probabilities[m] >= loop.settings.tracked_above))
+    if (!(best.unseen[m] <= 0 && best.probabilities[m] >= loop.settings.thresholds.tracked_above))
       return false;
   return true;
 }
@@ -30,7 +30,7 @@ bool is_agreed(const LoopState& loop, const Candidate& best) {
 bool is_first_guess(const LoopState& loop, const Candidate& best) {
   return !loop.given.expects_any() && !loop.finder.verifier().experienced() &&
          std::ranges::find(best.shown, false) == best.shown.end() &&
-         best.probability() >= loop.settings.uncertain_above && !best.is_sure() &&
+         best.probability() >= loop.settings.thresholds.uncertain_above && !best.is_sure() &&
          !is_agreed(loop, best);
 }
 

@@ -55,7 +55,7 @@ void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidat
     if (is_unknown(track.phase())) request.together.resize(0);
     bool is_sought = !best.answers() || !best.shown[m] || p < request.needed[m];
     // A doubtful first pose may prove right.
-    if (is_unknown(track.phase()) && is_sought && p >= loop.settings.uncertain_above)
+    if (is_unknown(track.phase()) && is_sought && p >= loop.settings.thresholds.uncertain_above)
       is_sought = doubtful_finds_.next();
     if (!is_sought) continue;
     request.sought[m] = request.lost = true;

@@ -10,8 +10,8 @@ void check_looking(const TrackerParts& parts, bool recovers) {
   if (!parts.begins_by_looking) return;
   if (!recovers)
     throw ConfigError(
-        "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, "
-        "tracker.evidence and an objective that compares pictures; give a start, for example "
+        "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, a "
+        "judge and an objective that compares pictures; give a start, for example "
         "`init: {pose: ...}`");
   if (parts.cameras.size() < 2)
     throw ConfigError(

@@ -16,7 +16,7 @@ namespace {
 /// Returns whether the searches have left the start for a pose that few of them found.
 bool is_doubtful(const LoopState& loop, const Candidate& best, std::size_t model) {
   return best.from_start && !best.reproduced[model] &&
-         best.probabilities[model] >= loop.settings.uncertain_above &&
+         best.probabilities[model] >= loop.settings.thresholds.uncertain_above &&
          loop.given.is_left(model, best.found.state);
 }
 
@@ -43,7 +43,8 @@ void try_other_poses(LoopState& loop, const Frame& frame, std::size_t model, Can
   loop.finder.recover(frame, request, best, loop.seed_of(frame, part));
   const std::string why = "searches from around it end in different poses";
   loop.given.doubt(model, why);
-  if (!(best.probabilities[model] >= loop.settings.surely_above)) loop.leave_start(model, why);
+  if (!(best.probabilities[model] >= loop.settings.thresholds.surely_above))
+    loop.leave_start(model, why);
 }
 
 }  // namespace

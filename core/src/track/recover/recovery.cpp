@@ -176,9 +176,8 @@ PoseGuess Recovery::beside(const Task& task, std::size_t other) const {
 bool Recovery::hides_others(const Task& task, const Eigen::VectorXd& state,
                             const ColorMap& colors) {
   for (std::size_t m = 0; m < task.hidden.size(); ++m)
-    if (!task.hidden[m] &&
-        task.verifier.model(m).measure_evidence(task.frame, state, colors).covered >
-            task.covered[m] + kHides)
+    if (!task.hidden[m] && task.verifier.model(m).measured(task.frame, state, colors).covered >
+                               task.covered[m] + kHides)
       return true;
   return false;
 }
@@ -196,11 +195,10 @@ Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVeri
   task.in_view = in_view_[model] || !verifier.experienced(model);
   const Eigen::VectorXd others = searches_[model]->without(task.last.state, task.hidden);
   for (std::size_t m = 0; m < shown.size(); ++m)
-    task.covered.push_back(task.hidden[m]
-                               ? 0
-                               : verifier.model(m)
-                                     .measure_evidence(frame, others, search.second_view_colors())
-                                     .covered);
+    task.covered.push_back(
+        task.hidden[m]
+            ? 0
+            : verifier.model(m).measured(frame, others, search.second_view_colors()).covered);
   return task;
 }
 
@@ -213,7 +211,7 @@ void Recovery::look(Task& task, const MotionLimits& limits) {
   }
   const Places seen = places(task);
   const ModelVerifier& of_model = task.verifier.model(task.model);
-  task.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
+  task.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Measures::kInside);
   in_view_[task.model] = task.in_view;
   if (task.in_view) task.guesses = guesses(task, seen, limits);
 }
@@ -232,20 +230,20 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   const int refined = or_usual(effort.refined, settings_.refined, kUnknownEffort);
   const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses, kUnknownEffort),
                                 refined, is_known ? refined : kUnknownKept};
-  ModelVerifier& verifier = task.verifier.model(task.model);
+  PoseVerifier& verifier = task.verifier;
   const Reach reach = reach_within(limits, is_known ? task.last.seconds : 1);
   FoundPoses found = searches_[task.model]->find(task.search, task.frame, base, task.hidden,
                                                  task.held, guess, counts, seed);
   Candidates out{{}, found.evaluations};
   std::vector<Refined> seen;
   for (Refined& one : found.poses) {
-    const Evidence evidence = verifier.measure_evidence(task.frame, one.state, colors);
+    const Measures measures = verifier.model(task.model).measured(task.frame, one.state, colors);
     // Behind another model any pose fits.
-    if (evidence.covered > guess.covered || hides_others(task, one.state, colors)) continue;
-    const double odds = verifier.log_odds(evidence);
+    if (measures.covered > guess.covered || hides_others(task, one.state, colors)) continue;
+    const double odds = verifier.log_odds(measures);
     if (-odds > kHopeless) continue;
-    // With learned colours the pictures' evidence tells more than costs, without them less.
-    if (verifier.experienced()) one.cost = -odds;
+    // With learned colours the judge tells more than costs, without them less.
+    if (verifier.experienced(task.model)) one.cost = -odds;
     Eigen::VectorXd state = base;
     state.segment(item.offset, item.model->dimension()) =
         one.state.segment(item.offset, item.model->dimension());

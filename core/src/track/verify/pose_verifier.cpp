@@ -5,14 +5,12 @@
 #include <utility>
 
 #include "track/verify/symmetries.hpp"
-#include "track/verify/weights.hpp"
 
 namespace hypotrack::internal {
 namespace {
 
 constexpr double kHidden = 0.7;     // share of a model's points that others hide: not verified
 constexpr double kUsualRate = 0.1;  // of a frame in what is usual
-constexpr double kOfTracked = 0.5;  // share of the likeness's weight for a tracked model
 
 bool has_colors(const Frame& frame) {
   return frame.views.size() >= 2 && !frame.views[0].color.empty() && !frame.views[1].color.empty();
@@ -22,7 +20,7 @@ bool has_colors(const Frame& frame) {
 
 ModelVerifier::ModelVerifier(const Scene& scene, std::size_t model,
                              const std::vector<Camera>& cameras)
-    : item_(scene.items()[model]), sampler_(scene, model, cameras) {
+    : item_(scene.items()[model]), model_(model), sampler_(scene, model, cameras) {
   constexpr double kTexel = 0.003;  // metres, as pictures show a texture
   const Mesh& mesh = item_.model->data().mesh;
   if (!is_rigid(item_) || mesh.texture.empty()) return;  // no hand has the texture of a mesh
@@ -30,12 +28,17 @@ ModelVerifier::ModelVerifier(const Scene& scene, std::size_t model,
   symmetries_ = symmetries(mesh);
 }
 
-Evidence ModelVerifier::measure_evidence(const Frame& frame, const Eigen::VectorXd& state,
-                                         const ColorMap& colors) {
+Measures ModelVerifier::measured(const Frame& frame, const Eigen::VectorXd& state,
+                                 const ColorMap& colors) {
   samples_ = sampler_.sample(frame, state, colors);
-  Evidence evidence = measure(samples_, colors_);
-  evidence.likeness = appearance_.likeness(samples_);
-  return evidence;
+  Measures out = measure(samples_, colors_);
+  out.experienced = experienced();
+  if (usual_) out.usual = *usual_;
+  out.likeness = appearance_.likeness(samples_);
+  out.usual_likeness = usual_likeness_;
+  out.tracked = tracked_;
+  out.model = model_;
+  return out;
 }
 
 Eigen::VectorXd ModelVerifier::turned_to_texture(const Frame& frame, const Eigen::VectorXd& state,
@@ -58,31 +61,6 @@ Eigen::VectorXd ModelVerifier::turned_to_texture(const Frame& frame, const Eigen
   return best;
 }
 
-Eigen::VectorXd ModelVerifier::features(const Evidence& evidence) const {
-  constexpr Eigen::Index kCount = Evidence::kCount;
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(2 * kCount);
-  out.head(kCount) = Eigen::Map<const Eigen::VectorXd>(evidence.values.data(), kCount);
-  if (usual_)
-    out.tail(kCount) = out.head(kCount) - Eigen::Map<const Eigen::VectorXd>(usual_->data(), kCount);
-  return out;
-}
-
-double ModelVerifier::log_odds(const Evidence& evidence) const {
-  if (!evidence.known) return -std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd x = features(evidence);
-  const verifier_weights::Network& network =
-      usual_ ? verifier_weights::kExperienced : verifier_weights::kFresh;
-  double sum = network.out_bias;
-  for (std::size_t unit = 0; unit < verifier_weights::kHidden; ++unit) {
-    const Eigen::Map<const Eigen::VectorXd> weights(network.hidden[unit].data(), x.size());
-    sum += network.out[unit] * std::max(0.0, weights.dot(x) + network.hidden_bias[unit]);
-  }
-  if (usual_ && !std::isnan(evidence.likeness))
-    sum += (tracked_ ? kOfTracked : 1.0) * verifier_weights::kLikeness * usual_likeness_ *
-           (evidence.likeness - usual_likeness_);
-  return sum;
-}
-
 void ModelVerifier::forget() {
   colors_ = {};
   appearance_ = {};
@@ -91,8 +69,8 @@ void ModelVerifier::forget() {
   usual_.reset();
 }
 
-void ModelVerifier::learn(const Evidence& evidence) {
-  if (!evidence.known) return;
+void ModelVerifier::learn(const Measures& measures) {
+  if (!measures.known) return;
   const bool knew_colors = colors_.known();
   colors_.learn(samples_);
   appearance_.learn(samples_);
@@ -101,12 +79,14 @@ void ModelVerifier::learn(const Evidence& evidence) {
     return;
   }
   for (std::size_t i = 0; i < usual_->size(); ++i)
-    (*usual_)[i] += kUsualRate * (evidence.values[i] - (*usual_)[i]);
-  if (!std::isnan(evidence.likeness))
-    usual_likeness_ += kUsualRate * (evidence.likeness - usual_likeness_);
+    (*usual_)[i] += kUsualRate * (measures.values[i] - (*usual_)[i]);
+  if (!std::isnan(measures.likeness))
+    usual_likeness_ += kUsualRate * (measures.likeness - usual_likeness_);
 }
 
-PoseVerifier::PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras) {
+PoseVerifier::PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras,
+                           std::shared_ptr<const Judge> judge)
+    : judge_(std::move(judge)) {
   if (cameras.size() < 2) return;
   for (std::size_t m = 0; m < scene.items().size(); ++m) models_.emplace_back(scene, m, cameras);
 }
@@ -115,15 +95,20 @@ ModelProbabilities PoseVerifier::verify(const Frame& frame, const Eigen::VectorX
                                         const ColorMap& colors, const std::vector<bool>& models) {
   state_ = state;
   ModelProbabilities probabilities(models.size(), std::numeric_limits<double>::quiet_NaN());
-  evidence_.assign(models_.size(), {});
+  measures_.assign(models_.size(), {});
   if (!has_colors(frame)) return probabilities;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     if (!models[m]) continue;
-    evidence_[m] = models_[m].measure_evidence(frame, state, colors);
-    if (evidence_[m].covered > kHidden) continue;
-    probabilities[m] = 1 / (1 + std::exp(-models_[m].log_odds(evidence_[m])));
+    measures_[m] = models_[m].measured(frame, state, colors);
+    if (measures_[m].covered > kHidden) continue;
+    probabilities[m] = probability_of(log_odds(measures_[m]));
   }
   return probabilities;
+}
+
+double PoseVerifier::log_odds(const Measures& measures) const {
+  if (!measures.known) return -std::numeric_limits<double>::infinity();
+  return judge_->log_odds(measures);
 }
 
 bool PoseVerifier::experienced() const {
@@ -132,7 +117,7 @@ bool PoseVerifier::experienced() const {
 
 void PoseVerifier::learn(const std::vector<bool>& right) {
   for (std::size_t m = 0; m < models_.size(); ++m)
-    if (right[m] && evidence_[m].covered <= kHidden) models_[m].learn(evidence_[m]);
+    if (right[m] && measures_[m].covered <= kHidden) models_[m].learn(measures_[m]);
 }
 
 }  // namespace hypotrack::internal

@@ -10,18 +10,22 @@
 #include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
+#include "hypotrack/judge.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
 #include "track/model_pose.hpp"
 #include "track/verify/appearance.hpp"
-#include "track/verify/evidence.hpp"
 #include "track/verify/foreground_colors.hpp"
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Estimates from the pictures alone whether the pose of one model is right.
+/// Measures how well samples of a model support its pose: `values`, `covered`, `points` and
+/// `known`. `colors` gives the foreground probabilities, 0.5 before anything was learned.
+Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors);
+
+/// Measures how well the pictures support poses of one model, and learns what is usual.
 class ModelVerifier {
  public:
   /// The scene must outlive the verifier.
@@ -29,42 +33,33 @@ class ModelVerifier {
 
   /// Measures how well a frame supports the model's pose in `state`. `colors` maps the second
   /// view's colours to the first's.
-  Evidence measure_evidence(const Frame& frame, const Eigen::VectorXd& state,
-                            const ColorMap& colors);
+  Measures measured(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
 
   /// Returns a state with the model turned to where its texture fits best, of all poses with the
   /// same silhouette. Models that are not rigid, without texture or without symmetries stay.
   Eigen::VectorXd turned_to_texture(const Frame& frame, const Eigen::VectorXd& state,
                                     const ColorMap& colors);
 
-  /// Returns the classifier's features: the evidence and, after learn(), its differences from the
-  /// usual evidence (zeros before).
-  Eigen::VectorXd features(const Evidence& evidence) const;
-
-  /// Returns the log odds that the model's landmarks are about where they were found (weights.hpp).
-  /// -infinity without evidence.
-  double log_odds(const Evidence& evidence) const;
-
   /// Sets what hides the model in the frames measured from now on; null: nothing.
   void hide(std::shared_ptr<const HiddenViews> hidden) { sampler_.hide(std::move(hidden)); }
 
-  /// Sets whether the model was tracked in the last frame. Its likeness then counts half, because a
-  /// hand that turns or closes shows sides that were not seen before.
+  /// Sets whether the model was tracked in the last frame (Measures::tracked).
   void set_tracked(bool tracked) { tracked_ = tracked; }
 
-  /// Learns colours and usual evidence from the last measure_evidence(), in which the model was
-  /// surely right.
-  void learn(const Evidence& evidence);
+  /// Learns colours and usual measures from the last measured(), in which the model was surely
+  /// right.
+  void learn(const Measures& measures);
   /// Forgets what was learned.
   void forget();
   bool experienced() const { return usual_.has_value(); }
   const ForegroundColors& colors() const { return colors_; }
-  /// Returns the mean evidence of frames in which the model was surely right; 0 before learn().
-  double usual(Evidence::Index i) const { return usual_ ? (*usual_)[i] : 0; }
-  double usual_likeness() const { return usual_likeness_; }
+  /// Returns the mean of a measure over frames in which the model was surely right; 0 before
+  /// learn().
+  double usual(Measures::Index i) const { return usual_ ? (*usual_)[i] : 0; }
 
  private:
   const Scene::Item& item_;
+  std::size_t model_;
   SurfaceSampler sampler_;
   SurfaceSamples samples_;
   ForegroundColors colors_;
@@ -73,22 +68,26 @@ class ModelVerifier {
   Appearance appearance_;
   double usual_likeness_ = 0;
   bool tracked_ = false;
-  std::optional<std::array<double, Evidence::kCount>> usual_;
+  std::optional<std::array<double, Measures::kCount>> usual_;
 };
 
 /// Probability, by model, that its pose is right. NaN: unknown, for example where others hide it.
 using ModelProbabilities = std::vector<double>;
 
-/// Estimates for every model of a scene whether its pose is right.
+/// Estimates for every model of a scene whether its pose is right: measures it and asks the judge.
 class PoseVerifier {
  public:
-  /// The scene must outlive the verifier.
-  PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras);
+  /// The scene must outlive the verifier. `judge` may be null if nothing is to be verified.
+  PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras,
+               std::shared_ptr<const Judge> judge);
 
   /// Verifies the flagged models (one flag each) in a frame with the scene posed in a normalised
   /// state. The others get NaN, and so do all in frames without colours in two views.
   ModelProbabilities verify(const Frame& frame, const Eigen::VectorXd& state,
                             const ColorMap& colors, const std::vector<bool>& models);
+
+  /// Returns the log odds that a pose is right, by its measures; -infinity if nothing is known.
+  double log_odds(const Measures& measures) const;
 
   /// Sets what hides models in the frames verified from now on; null: nothing.
   void hide(const std::shared_ptr<const HiddenViews>& hidden) {
@@ -117,16 +116,16 @@ class PoseVerifier {
     return model < models_.size() && models_[model].experienced();
   }
   bool experienced() const;
-  /// Returns the verifier of one model. Its measure_evidence() invalidates learn() until the next
-  /// verify().
+  /// Returns the verifier of one model. Its measured() invalidates learn() until the next verify().
   ModelVerifier& model(std::size_t i) {
     state_.resize(0);
     return models_[i];
   }
 
  private:
+  std::shared_ptr<const Judge> judge_;
   std::vector<ModelVerifier> models_;
-  std::vector<Evidence> evidence_;
+  std::vector<Measures> measures_;  ///< by model, of the last verify()
   Eigen::VectorXd state_;
 };
 

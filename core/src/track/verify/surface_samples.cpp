@@ -114,7 +114,7 @@ struct SurfaceSampler::Impl {
 
   /// Draws into the views' grids the model alone and the whole scene.
   void draw(const Observation& header, const Eigen::VectorXd& state, const Eigen::VectorXd& own);
-  SampledView measure_evidence(const Lookup& lookup, std::size_t view) const;
+  SampledView sampled(const Lookup& lookup, std::size_t view) const;
   void pair(const Lookup& other, const Observation& header, SurfaceSamples& out) const;
   std::vector<SurfaceSamples::Point> points(const SampledView& view, const TileCamera& grid,
                                             const Eigen::VectorXd& part) const;
@@ -161,7 +161,7 @@ void SurfaceSampler::Impl::draw(const Observation& header, const Eigen::VectorXd
   for (std::size_t i = 0; i < 2; ++i) all[i] = inverse_depths(everything[i]);
 }
 
-SampledView SurfaceSampler::Impl::measure_evidence(const Lookup& lookup, std::size_t view) const {
+SampledView SurfaceSampler::Impl::sampled(const Lookup& lookup, std::size_t view) const {
   SampledView out{cv::Mat3f(grid_size, grid_size, cv::Vec3f(0, 0, 0)),
                   cv::Mat1b(grid_size, grid_size, uchar{0}),
                   {}};
@@ -257,10 +257,10 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
   const TileCamera& grid = plan.header.views[0].camera;
   tbb::parallel_invoke(
       [&] {
-        out.views[0] = self.measure_evidence(first, 0);
+        out.views[0] = self.sampled(first, 0);
         self.pair(second, plan.header, out);
       },
-      [&] { out.views[1] = self.measure_evidence(second, 1); });
+      [&] { out.views[1] = self.sampled(second, 1); });
   out.points = self.points(out.views[0], grid, own);
   const double depth = (grid.camera_from_world * Eigen::Vector3d(own.head<3>())).z();
   out.points_per_metre = grid.fx / depth;

@@ -1,5 +1,3 @@
-#include "track/verify/evidence.hpp"
-
 #include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "hypotrack/median.hpp"
+#include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -270,17 +269,9 @@ Probability probability(const SurfaceSamples& samples, const ForegroundColors& c
 
 }  // namespace
 
-std::array<std::string_view, Evidence::kCount> evidence_names() {
-  return {"correlation", "texture",      "agreement",       "contrast",
-          "difference",  "ring_texture", "ring_difference", "separation",
-          "edges",       "edge_ratio",   "inside",          "ring",
-          "paired",      "visible",      "worst_agreement", "worst_inside",
-          "worst_ring",  "worst_edges"};
-}
-
-Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors) {
-  Evidence out;
-  out.values[Evidence::kVisible] = samples.visible;
+Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors) {
+  Measures out;
+  out.values[Measures::kVisible] = samples.visible;
   out.covered = samples.covered;
   if (samples.empty()) return out;
   const SampledView& first = samples.views[0];
@@ -300,24 +291,24 @@ Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors) 
                        [&] { right = edges(samples.views[1]); },
                        [&] { on = probability(samples, colors, &SampledView::inside); },
                        [&] { off = probability(samples, colors, &SampledView::ring); });
-  out.values[Evidence::kCorrelation] = plain_correlation(inside);
-  out.values[Evidence::kTexture] = surface.correlation;
-  out.values[Evidence::kAgreement] = surface.agreement;
-  out.values[Evidence::kContrast] = surface.contrast;
-  out.values[Evidence::kDifference] = median_difference(inside);
-  out.values[Evidence::kRingTexture] = beside.correlation;
-  out.values[Evidence::kRingDifference] = median_difference(ring);
-  out.values[Evidence::kSeparation] =
+  out.values[Measures::kCorrelation] = plain_correlation(inside);
+  out.values[Measures::kTexture] = surface.correlation;
+  out.values[Measures::kAgreement] = surface.agreement;
+  out.values[Measures::kContrast] = surface.contrast;
+  out.values[Measures::kDifference] = median_difference(inside);
+  out.values[Measures::kRingTexture] = beside.correlation;
+  out.values[Measures::kRingDifference] = median_difference(ring);
+  out.values[Measures::kSeparation] =
       (separation(samples.views[0]) + separation(samples.views[1])) / 2;
-  out.values[Evidence::kEdges] = std::min(left.share, right.share);
-  out.values[Evidence::kEdgeRatio] = std::min(left.ratio, right.ratio);
-  out.values[Evidence::kInside] = on.mean;
-  out.values[Evidence::kRing] = off.mean;
-  out.values[Evidence::kWorstInside] = on.lowest;
-  out.values[Evidence::kWorstRing] = off.highest;
-  out.values[Evidence::kWorstAgreement] = surface.worst_agreement;
-  out.values[Evidence::kWorstEdges] = std::min(left.worst_share, right.worst_share);
-  out.values[Evidence::kPaired] = cv::countNonZero(inside.mask) / core_points;
+  out.values[Measures::kEdges] = std::min(left.share, right.share);
+  out.values[Measures::kEdgeRatio] = std::min(left.ratio, right.ratio);
+  out.values[Measures::kInside] = on.mean;
+  out.values[Measures::kRing] = off.mean;
+  out.values[Measures::kWorstInside] = on.lowest;
+  out.values[Measures::kWorstRing] = off.highest;
+  out.values[Measures::kWorstAgreement] = surface.worst_agreement;
+  out.values[Measures::kWorstEdges] = std::min(left.worst_share, right.worst_share);
+  out.values[Measures::kPaired] = cv::countNonZero(inside.mask) / core_points;
   return out;
 }
 
