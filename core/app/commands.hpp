@@ -26,6 +26,7 @@ void add_run_command(const Command& root, CommonOptions& common, int& exit_code)
 void add_validate_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_start_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_fit_shape_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_fit_judge_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_record_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_synth_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_evaluate_command(const Command& root, int& exit_code);

@@ -39,6 +39,9 @@ void add_absent(const Command& root, const std::string& name, const std::string&
 
 }  // namespace
 
+void add_fit_judge_command(const Command& root, CommonOptions&, int&) {
+  add_absent(root, "fit-judge", "Fit a judge to the models of scenes with ground truth");
+}
 void add_reliability_command(const Command& root, int&) {
   add_absent(root, "reliability", "Compare sigmas with true errors");
 }

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   add_validate_command(root, common, exit_code);
   add_start_command(root, common, exit_code);
   add_fit_shape_command(root, common, exit_code);
+  add_fit_judge_command(root, common, exit_code);
   add_record_command(root, common, exit_code);
   add_synth_command(root, common, exit_code);
   add_evaluate_command(root, exit_code);
