@@ -5,6 +5,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/refines_start.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/source.hpp"
 
@@ -23,6 +24,7 @@ void ResidualTerm::write_slopes(const RenderedHypothesis&, std::size_t, std::spa
 void ResidualTerm::write_jacobian(const RenderedHypothesis&, std::span<float>, Jacobian&) const {
   throw Error("this objective has no Jacobian of its residuals");
 }
+RefinesStart::~RefinesStart() = default;
 Objective::~Objective() = default;
 const ResidualTerm* Objective::residual_term() const { return nullptr; }
 double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,

@@ -24,13 +24,16 @@ bool all_finite(std::span<const float> numbers) {
 }  // namespace
 
 CheckedObjective::CheckedObjective(std::unique_ptr<Objective> objective, std::string who)
-    : objective_(std::move(objective)), who_(std::move(who)) {
+    : objective_(std::move(objective)),
+      refines_start_(dynamic_cast<const RefinesStart*>(objective_.get())),
+      who_(std::move(who)) {
   residuals_ = detail::call_plugin(who_, [&] { return objective_->residual_term(); });
 }
 
 void CheckedObjective::prepare(const Observation& observation) {
   const TimeSum::Scope time(times_->prepare);
   detail::call_plugin(who_, [&] { objective_->prepare(observation); });
+  dimension_ = observation.start.size();
 }
 
 double CheckedObjective::cost(const RenderedHypothesis& hypothesis) const {
@@ -61,6 +64,16 @@ std::vector<PixelMap> CheckedObjective::maps(const RenderedHypothesis& hypothesi
 
 std::unique_ptr<cuda::DeviceObjective> CheckedObjective::on_device() const {
   return detail::call_plugin(who_, [&] { return objective_->on_device(); });
+}
+
+Eigen::VectorXd CheckedObjective::refined_start() const {
+  if (!refines_start_) return {};
+  Eigen::VectorXd out = detail::call_plugin(who_, [&] { return refines_start_->refined_start(); });
+  if (out.size() == 0 || (out.size() == dimension_ && out.allFinite())) return out;
+  throw PluginError(
+      fmt::format("{}: its refined start has {} numbers{}, expected {} finite ones; this is a bug "
+                  "in the objective",
+                  who_, out.size(), out.allFinite() ? "" : ", not all finite", dimension_));
 }
 
 std::int64_t CheckedObjective::residual_count() const {

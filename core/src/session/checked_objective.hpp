@@ -8,6 +8,7 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/objective.hpp"
+#include "hypotrack/refines_start.hpp"
 #include "session/term_times.hpp"
 
 namespace hypotrack {
@@ -15,7 +16,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's objective: names it in what it throws and where it crashes, checks its
 /// costs and residuals, and measures how long it works.
-class CheckedObjective final : public Objective, public ResidualTerm {
+class CheckedObjective final : public Objective, public ResidualTerm, public RefinesStart {
  public:
   /// `who`: plugin_label() of the objective, which must not be null.
   CheckedObjective(std::unique_ptr<Objective> objective, std::string who);
@@ -36,6 +37,11 @@ class CheckedObjective final : public Objective, public ResidualTerm {
   bool has_maps() const override { return objective_->has_maps(); }
   std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+
+  // RefinesStart
+  /// Returns that of an objective that does not refine starts, too: empty. Throws PluginError on
+  /// a state of another size, or not finite.
+  Eigen::VectorXd refined_start() const override;
 
   // ResidualTerm
   /// Throws PluginError if the number is negative, or more than memory can hold.
@@ -58,6 +64,8 @@ class CheckedObjective final : public Objective, public ResidualTerm {
 
   std::unique_ptr<Objective> objective_;
   const ResidualTerm* residuals_;  ///< of the objective; null: none
+  const RefinesStart* refines_start_;  ///< the objective; null: it does not
+  Eigen::Index dimension_ = 0;         ///< of the prepared frame's state
   std::string who_;
   std::shared_ptr<TermTimes> times_ = std::make_shared<TermTimes>();
 };

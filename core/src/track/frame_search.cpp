@@ -8,6 +8,7 @@
 
 #include "base/profile.hpp"
 #include "cost/search_clock.hpp"
+#include "hypotrack/refines_start.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/stop.hpp"
 #include "plugin/plugin_call.hpp"
@@ -37,6 +38,7 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       background_(joined_use(parts.objective).background
                       ? std::make_optional<StillBackground>(scene, parts.cameras)
                       : std::nullopt),
+      terms_(parts.objective),
       cost_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
       optimizer_(std::move(parts.optimizer)),
       optimizer_label_(parts.optimizer_label),
@@ -100,6 +102,26 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
   context_ = plan_.header.context;
   if (background_) background_->add_to(plan_, tiles_.resamplers());
   cost_->prepare(tiles_, frame, plan_);
+  is_fresh_ = true;
+}
+
+Eigen::VectorXd FrameSearch::refined(const Eigen::VectorXd& prior) {
+  if (!std::exchange(is_fresh_, false)) return prior;
+  for (const ObjectiveTerm& term : terms_) {
+    const auto* refines = dynamic_cast<const RefinesStart*>(term.objective.get());
+    if (!refines) continue;
+    const Eigen::VectorXd start = refines->refined_start();
+    if (start.size() == 0) continue;
+    Eigen::VectorXd out = prior;
+    for (std::size_t m = 0; m < moving_.size(); ++m) {
+      const Scene::Item& item = scene_.items()[m];
+      if (shown_[m] && moving_[m])
+        out.segment(item.offset, item.model->dimension()) =
+            start.segment(item.offset, item.model->dimension());
+    }
+    return out;
+  }
+  return prior;
 }
 
 void FrameSearch::take_in(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
@@ -162,7 +184,7 @@ OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& regi
 
 Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
-  const Eigen::VectorXd posed = drawn(prior);
+  const Eigen::VectorXd posed = drawn(refined(prior));
   RecordedSearch* record = record_ ? &record_->emplace_back() : nullptr;
   TracedSearch* traced =
       trace_ ? &trace_->searches.emplace_back(TracedSearch{.dimension = space_.dimension()})

@@ -77,7 +77,8 @@ class FrameSearch {
   /// is unknown, or a model that is shown is known to be out of view.
   double truth_cost();
 
-  /// Searches the prepared frame once, from `prior`.
+  /// Searches the prepared frame once, from `prior`. The first search of a frame starts where an
+  /// objective refined the start (RefinesStart).
   Found from(const Eigen::VectorXd& prior, const Budget& budget, const std::optional<Reach>& reach,
              std::uint64_t seed);
 
@@ -117,6 +118,8 @@ class FrameSearch {
   /// Calls the optimizer and checks its answer. Throws PluginError, naming it.
   OptimizerResult minimize(SearchCost& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed);
+  /// Returns where the first search after look() starts: a prior, or what an objective made of it.
+  Eigen::VectorXd refined(const Eigen::VectorXd& prior);
   /// Writes the previous answer into a plan, unless it must not assume a motion.
   void add_previous(const Frame& frame, TilePlan& plan) const;
   /// Writes what hides the models into a plan.
@@ -131,6 +134,8 @@ class FrameSearch {
   PhotometricMatch photometric_;
   SearchSpace space_;
   std::optional<StillBackground> background_;  ///< if any term reads it
+  std::vector<ObjectiveTerm> terms_;
+  bool is_fresh_ = false;  ///< no search was made since look()
   FallbackCost cost_;
   std::unique_ptr<Optimizer> optimizer_;
   std::string optimizer_label_;
