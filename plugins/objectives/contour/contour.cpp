@@ -1,0 +1,139 @@
+#include "contour.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/kinematics.hpp"
+#include "hypotrack/observation_checks.hpp"
+#include "model_contours.hpp"
+
+namespace hypotrack::contour {
+namespace {
+
+/// Throws unless a view has colour, and where colour or valid image are not the tile's.
+void check(const Observation& observation) {
+  bool any = false;
+  for (std::size_t i = 0; i < observation.views.size(); ++i) {
+    const TileView& view = observation.views[i];
+    if (view.color.empty()) continue;
+    any = true;
+    check_tile_image("contour", view.color, CV_8UC3, view, i, "colour image");
+    check_tile_image("contour", view.valid, CV_8UC1, view, i, "valid image");
+  }
+  if (any) return;
+  const std::size_t count = observation.views.size();
+  throw DataError(fmt::format(
+      "objective contour: frame {} has {} view{}, none with colour; use a source of colour images",
+      observation.frame, count, count == 1 ? "" : "s"));
+}
+
+Eigen::Isometry3d pose_of(const Eigen::VectorXd& state, int offset) {
+  return world_from_model({state.data() + offset, kPoseSize});
+}
+
+void set_pose(const Eigen::Isometry3d& pose, int offset, Eigen::VectorXd& state) {
+  const Eigen::Quaterniond q(pose.linear());
+  state.segment<kPoseSize>(offset) << pose.translation(), q.w(), q.vec();
+}
+
+}  // namespace
+
+Contour::Contour(const Params& params, const Scene& scene, PluginLog log, const std::string& where)
+    : params_(params) {
+  for (const Scene::Item& item : scene.items()) {
+    if (is_rigid(*item.model))
+      models_.push_back({item.offset, model_contours(item.model, params, log)});
+    else
+      log.note(fmt::format("model '{}' has joints; its contour is not looked at", item.name));
+  }
+  if (!models_.empty()) return;
+  throw ConfigError(
+      fmt::format("{}: objective contour: none of the {} models is rigid; expected one, such as a "
+                  "rigid_mesh or a rigid_box. Leave the objective out",
+                  where, scene.items().size()));
+}
+
+void Contour::prepare(const Observation& observation) {
+  check(observation);
+  learn(observation);
+  lines_.clear();
+  refined_ = observation.start;
+  for (const RigidModel& model : models_) fit(model, observation.views);
+}
+
+void Contour::learn(const Observation& observation) {
+  const auto& previous = observation.context.previous;
+  if (from_guess_ || observation.context.start_is_guess) {
+    for (RigidModel& model : models_) model.colors.assign(observation.views.size(), {});
+    learn_from(observation.start, observation.views, 1);
+    from_guess_ = observation.context.start_is_guess;
+    learned_ = observation.frame;
+  } else if (previous && last_ && previous->frame == last_->frame && learned_ < last_->frame) {
+    learn_from(previous->state, last_->views, params_.learning_rate);
+    learned_ = last_->frame;
+  }
+  last_ = SeenFrame{observation.frame, observation.views};
+}
+
+void Contour::learn_from(const Eigen::VectorXd& state, const std::vector<TileView>& views,
+                         double weight) {
+  constexpr double kLeastShown = 0.5;
+  for (RigidModel& model : models_) {
+    const Eigen::Isometry3d pose = pose_of(state, model.offset);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      if (views[i].color.empty()) continue;
+      const Eigen::Isometry3f camera_from_model =
+          (views[i].camera.camera_from_world * pose).cast<float>();
+      const double shown = count_colors(model.contours.seen_by(camera_from_model),
+                                        camera_from_model, views[i], model.colors[i]);
+      if (shown < kLeastShown)
+        model.colors[i].discard();
+      else
+        model.colors[i].learn(weight);
+    }
+  }
+}
+
+void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
+  std::vector<RegionView> regions;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].color.empty() || model.colors[i].is_empty()) continue;
+    regions.push_back({&views[i].camera, views[i].color,
+                       model.colors[i].log_odds(views[i].color, views[i].valid)});
+  }
+  const Eigen::Isometry3d pose =
+      fit_region(model.contours, pose_of(refined_, model.offset), regions);
+  set_pose(pose, model.offset, refined_);
+  for (const RegionView& region : regions) {
+    constexpr double kReach = 0.1;  // of a tile: a tenth of the model's size
+    lines_.push_back({*region.camera, model.offset, 1.0 / static_cast<double>(regions.size()),
+                      kReach * region.camera->width, lines_of(model.contours, pose, region, 1)});
+  }
+}
+
+double Contour::cost(const RenderedHypothesis& hypothesis) const {
+  return contour::cost_and_residuals(lines_, hypothesis.state, {});
+}
+
+void Contour::write_residuals(const RenderedHypothesis& hypothesis,
+                              std::span<float> residuals) const {
+  cost_and_residuals(hypothesis, residuals);
+}
+
+double Contour::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                   std::span<float> residuals) const {
+  return contour::cost_and_residuals(lines_, hypothesis.state, residuals);
+}
+
+void Contour::write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                             Jacobian& jacobian) const {
+  contour::cost_and_residuals(lines_, hypothesis.state, residuals);
+  contour::write_jacobian(lines_, hypothesis.state, jacobian);
+}
+
+}  // namespace hypotrack::contour

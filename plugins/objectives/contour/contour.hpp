@@ -1,0 +1,86 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "color_histograms.hpp"
+#include "contour_views.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/refines_start.hpp"
+#include "line_term.hpp"
+#include "params.hpp"
+#include "region_fit.hpp"
+
+namespace hypotrack::contour {
+
+/// Pulls the outlines of rigid models to where the colours of the picture change, in every view by
+/// itself: one camera is enough. prepare() first fits the models to the frame by themselves
+/// (fit_region()), which gives refined_start(). Lines of one-pixel segments across the outlines of
+/// that pose then make the residuals: the cost is
+///
+///   mean over views, sum over models and lines, of (d / sigma)^2 / (1 + (d / reach)^2),
+///
+/// with d the distance in pixels of the outline's point from the line's mean (line_term.hpp).
+///
+/// Colours are learned along the outlines of the start, and then of every answer. Models with
+/// joints cost nothing. A model before another one counts as background.
+class Contour : public Objective, public ResidualTerm, public RefinesStart {
+ public:
+  using Params = contour::Params;
+
+  /// The scene must outlive it. Draws models that are not in the cache. Throws ConfigError, naming
+  /// `where`, if no model is rigid.
+  Contour(const Params& params, const Scene& scene, PluginLog log, const std::string& where);
+
+  bool needs_rendering() const override { return false; }
+  ImageUse image_use() const override { return {.mask = false, .depth = false}; }
+  /// Uses the views with colour. Throws DataError if none has.
+  void prepare(const Observation& observation) override;
+  double cost(const RenderedHypothesis& hypothesis) const override;
+
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return contour::residual_count(lines_); }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
+  bool has_jacobian() const override { return true; }
+  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                      Jacobian& jacobian) const override;
+
+  Eigen::VectorXd refined_start() const override { return refined_; }
+
+ private:
+  struct RigidModel {
+    int offset;  ///< in the state
+    ContourViews contours;
+    std::vector<ColorHistograms> colors = {};  ///< one per view
+  };
+  /// A frame whose answer is not known yet.
+  struct SeenFrame {
+    int frame;
+    std::vector<TileView> views;
+  };
+
+  void learn(const Observation& observation);
+  /// Learns from the outlines of a state. Nothing is learned of a model that is hardly in the tile.
+  void learn_from(const Eigen::VectorXd& state, const std::vector<TileView>& views, double weight);
+  /// Fits a model to the views and adds its lines.
+  void fit(const RigidModel& model, const std::vector<TileView>& views);
+
+  Params params_;
+  std::vector<RigidModel> models_;
+  std::optional<SeenFrame> last_;
+  int learned_ = -1;        ///< the last frame that was learned from
+  bool from_guess_ = true;  ///< nothing but guesses was learned from
+  std::vector<LineSet> lines_;
+  Eigen::VectorXd refined_;
+};
+
+}  // namespace hypotrack::contour

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hypotrack::contour {
+
+/// A point of a model's outline as one camera sees it. Lengths in metres, in the model's frame.
+struct ContourPoint {
+  Eigen::Vector3f position;
+  /// Unit normal, outwards, of the plane through the camera's centre and the outline's tangent.
+  Eigen::Vector3f normal;
+  float inside;   ///< length along the normal over which the model is seen
+  float outside;  ///< length along the normal over which it is not
+};
+
+/// Outlines of a model from directions all around it.
+class ContourViews {
+ public:
+  /// `centre` is the point that all views look at, in the model's frame. `first` has one index into
+  /// `points` per direction (3xV unit vectors), and the number of points at its end.
+  ContourViews(const Eigen::Vector3f& centre, Eigen::Matrix3Xf directions,
+               std::vector<std::uint32_t> first, std::vector<ContourPoint> points);
+
+  /// Returns the outline that a camera sees, from the direction next to its own.
+  std::span<const ContourPoint> seen_by(const Eigen::Isometry3f& camera_from_model) const;
+
+  const Eigen::Vector3f& centre() const { return centre_; }
+  const Eigen::Matrix3Xf& directions() const { return directions_; }
+  std::span<const std::uint32_t> first() const { return first_; }
+  std::span<const ContourPoint> points() const { return points_; }
+
+ private:
+  Eigen::Vector3f centre_;
+  Eigen::Matrix3Xf directions_;
+  std::vector<std::uint32_t> first_;
+  std::vector<ContourPoint> points_;
+};
+
+/// Returns the corners of an icosahedron whose triangles are split into four `subdivisions` times:
+/// 3x(10 * 4^subdivisions + 2) unit vectors.
+Eigen::Matrix3Xf sphere_directions(int subdivisions);
+
+}  // namespace hypotrack::contour

@@ -1,0 +1,108 @@
+#include "correspondence_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hypotrack/pixel.hpp"
+#include "line_distribution.hpp"
+#include "mixed_edge.hpp"
+
+namespace hypotrack::contour {
+namespace {
+
+constexpr float kClosest = 0.01f;  // metres from the camera
+constexpr float kFarthest = 1e6f;  // pixels
+constexpr float kLeast = 3;        // segments that a part must be wide, and the gap beside it
+
+/// Sums the log odds of the pixels of each segment of a line. Pixels beside the picture say
+/// nothing.
+Segments sum_segments(const cv::Mat1f& log_odds, const SeenPoint& point, int scale) {
+  Segments out{};
+  const float from = -0.5f * static_cast<float>(kSegments * scale - 1);
+  Eigen::Vector2f at = point.pixel + from * point.normal;
+  for (float& segment : out)
+    for (int i = 0; i < scale; ++i, at += point.normal) {
+      const int x = static_cast<int>(std::floor(at.x() + 0.5f));
+      const int y = static_cast<int>(std::floor(at.y() + 0.5f));
+      if (x >= 0 && y >= 0 && x < log_odds.cols && y < log_odds.rows) segment += log_odds(y, x);
+    }
+  return out;
+}
+
+/// Returns the place of the outline on a line. Lines of one-pixel segments are refined.
+Place place_of(const SeenPoint& point, const RegionView& view, int scale) {
+  Segments segments = sum_segments(view.log_odds, point, scale);
+  for (float& segment : segments) segment = 2 / (1 + pixel::exp(-segment)) - 1;
+  const Place place = find_place(segments);
+  return scale > 1 ? place : refine_place(place, view.color, point.pixel, point.normal);
+}
+
+}  // namespace
+
+std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f& camera_from_model,
+                              const TileCamera& camera) {
+  SeenPoint out;
+  out.position = camera_from_model * point.position;
+  const float z = out.position.z();
+  if (!(z > kClosest)) return std::nullopt;
+  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
+  out.pixel = {fx * out.position.x() / z + static_cast<float>(camera.cx),
+               fy * out.position.y() / z + static_cast<float>(camera.cy)};
+  if (!(out.pixel.cwiseAbs().maxCoeff() < kFarthest)) return std::nullopt;
+  const Eigen::Vector3f plane = camera_from_model.linear() * point.normal;
+  const Eigen::Vector2f normal(plane.x() / fx, plane.y() / fy);
+  const float length = normal.norm();
+  if (!(length > 0)) return std::nullopt;
+  out.normal = normal / length;
+  const float scale = fx / z;
+  out.inside = scale * point.inside;
+  out.outside = scale * point.outside;
+  return out;
+}
+
+std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline,
+                                           const Eigen::Isometry3f& camera_from_model,
+                                           const RegionView& view, int scale) {
+  std::vector<CorrespondenceLine> out;
+  const auto pixels = static_cast<float>(scale);
+  for (const ContourPoint& point : outline) {
+    const std::optional<SeenPoint> here = seen(point, camera_from_model, *view.camera);
+    if (!here || std::min(here->inside, here->outside) < kLeast * pixels) continue;
+    const int x = static_cast<int>(std::floor(here->pixel.x() + 0.5f));
+    const int y = static_cast<int>(std::floor(here->pixel.y() + 0.5f));
+    if (x < 0 || y < 0 || x >= view.color.cols || y >= view.color.rows) continue;
+    const Place place = place_of(*here, view, scale);
+    out.push_back({point.position, here->pixel, here->normal, place.mean * pixels,
+                   place.variance * pixels * pixels});
+  }
+  return out;
+}
+
+double count_colors(std::span<const ContourPoint> outline,
+                    const Eigen::Isometry3f& camera_from_model, const TileView& view,
+                    ColorHistograms& histograms) {
+  const cv::Mat3b color = view.color;
+  const cv::Mat1b valid = view.valid;
+  const float reach = static_cast<float>(color.cols) / 8;  // pixels from the outline
+  std::size_t shown = 0;
+  const auto count = [&](Eigen::Vector2f at, const Eigen::Vector2f& step, float length, bool on) {
+    at += step;  // pixels on the outline are mixtures
+    for (float out = 2; out < std::min(length, reach); ++out) {
+      at += step;
+      const int x = static_cast<int>(std::floor(at.x() + 0.5f));
+      const int y = static_cast<int>(std::floor(at.y() + 0.5f));
+      if (x < 0 || y < 0 || x >= color.cols || y >= color.rows || valid(y, x) == 0) return;
+      if (on && out == 2) ++shown;
+      histograms.count(color(y, x), on);
+    }
+  };
+  for (const ContourPoint& point : outline) {
+    const std::optional<SeenPoint> here = seen(point, camera_from_model, view.camera);
+    if (!here) continue;
+    count(here->pixel, -here->normal, here->inside, true);
+    count(here->pixel, here->normal, here->outside, false);
+  }
+  return outline.empty() ? 0 : static_cast<double>(shown) / static_cast<double>(outline.size());
+}
+
+}  // namespace hypotrack::contour

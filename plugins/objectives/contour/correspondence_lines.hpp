@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "color_histograms.hpp"
+#include "contour_views.hpp"
+#include "hypotrack/observation.hpp"
+
+namespace hypotrack::contour {
+
+/// A point of a model's outline in a view, with the outline's normal there.
+struct SeenPoint {
+  Eigen::Vector3f position;  ///< in the camera's frame
+  Eigen::Vector2f pixel;
+  Eigen::Vector2f normal;  ///< unit, outwards, pixels
+  float inside, outside;   ///< pixels along the normal over which the model is seen, or is not
+};
+
+/// Returns how a camera sees a point of the outline; nothing behind the camera.
+std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f& camera_from_model,
+                              const TileCamera& camera);
+
+/// A view with the log odds of its pixels (ColorHistograms::log_odds()).
+struct RegionView {
+  const TileCamera* camera;
+  cv::Mat3b color;
+  cv::Mat1f log_odds;
+};
+
+/// A straight line of pixels across the outline, with the distribution of where along it the
+/// picture changes from the model's colours to those beside it.
+struct CorrespondenceLine {
+  Eigen::Vector3f position;  ///< of the outline's point, in the model's frame
+  Eigen::Vector2f centre;    ///< pixels
+  Eigen::Vector2f normal;    ///< unit, outwards
+  float mean;                ///< pixels from the centre along the normal
+  float variance;            ///< square pixels
+};
+
+/// Finds the lines of one model in one view (M. Stoiber, M. Pfanne, K. H. Strobl, R. Triebel,
+/// A. Albu-Schaeffer, "SRT3D: A sparse region-based 3D object tracking approach for the real
+/// world", IJCV 2022, section 3): pixels are independent, `scale` of them in a row make a segment,
+/// and a smoothed step says how the probability of the model falls across the outline. Lines of
+/// one-pixel segments are refined (refine_place()). Lines across thin parts are left out.
+std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline,
+                                           const Eigen::Isometry3f& camera_from_model,
+                                           const RegionView& view, int scale);
+
+/// Counts the colours on both sides of a model's outline in a view. Returns the share of the
+/// outline that lies in the picture.
+double count_colors(std::span<const ContourPoint> outline,
+                    const Eigen::Isometry3f& camera_from_model, const TileView& view,
+                    ColorHistograms& histograms);
+
+}  // namespace hypotrack::contour

@@ -1,0 +1,102 @@
+#include "line_term.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "hypotrack/kinematics.hpp"
+#include "hypotrack/model.hpp"
+
+namespace hypotrack::contour {
+namespace {
+
+constexpr double kBefore = 0.01;  // metres from the camera; nothing nearer is drawn either
+
+/// Returns the distance in pixels of a point from a line's mean; infinite at or behind the camera.
+double distance(const LineSet& set, const CorrespondenceLine& line, const Eigen::Vector3d& at) {
+  if (!(at.z() > kBefore)) return std::numeric_limits<double>::infinity();
+  const TileCamera& camera = set.camera;
+  const Eigen::Vector2d pixel(camera.fx * at.x() / at.z() + camera.cx,
+                              camera.fy * at.y() / at.z() + camera.cy);
+  return line.normal.cast<double>().dot(pixel - line.centre.cast<double>()) - line.mean;
+}
+
+double residual(const LineSet& set, const CorrespondenceLine& line, double d) {
+  const double scale = std::sqrt(set.weight / line.variance);
+  if (std::isinf(d)) return scale * set.reach;
+  return scale * d / std::hypot(1, d / set.reach);
+}
+
+std::span<const double> pose_of(const LineSet& set, std::span<const double> state) {
+  return state.subspan(static_cast<std::size_t>(set.offset), kPoseSize);
+}
+
+/// Returns the derivatives of R(q) x by the components w, x, y, z of a unit quaternion.
+Eigen::Matrix<double, 3, 4> turn_slopes(std::span<const double> pose, const Eigen::Vector3d& x) {
+  const double w = pose[3];
+  const Eigen::Vector3d v(pose[4], pose[5], pose[6]);
+  Eigen::Matrix3d cross;
+  cross << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
+  Eigen::Matrix<double, 3, 4> out;
+  out.col(0) = 2 * (w * x + v.cross(x));
+  out.rightCols<3>() = 2 * (v.dot(x) * Eigen::Matrix3d::Identity() + v * x.transpose() -
+                            x * v.transpose() - w * cross);
+  return out;
+}
+
+}  // namespace
+
+Eigen::Vector3d pixel_slope(const TileCamera& camera, const Eigen::Vector3d& point,
+                            const Eigen::Vector2f& direction) {
+  const double x = camera.fx * double{direction.x()} / point.z();
+  const double y = camera.fy * double{direction.y()} / point.z();
+  return {x, y, -(x * point.x() + y * point.y()) / point.z()};
+}
+
+std::int64_t residual_count(std::span<const LineSet> sets) {
+  std::int64_t count = 0;
+  for (const LineSet& set : sets) count += std::ssize(set.lines);
+  return count;
+}
+
+double cost_and_residuals(std::span<const LineSet> sets, std::span<const double> state,
+                          std::span<float> residuals) {
+  double cost = 0;
+  std::size_t i = 0;
+  for (const LineSet& set : sets) {
+    const Eigen::Isometry3d camera_from_model =
+        set.camera.camera_from_world * world_from_model(pose_of(set, state));
+    for (const CorrespondenceLine& line : set.lines) {
+      const double r = residual(
+          set, line, distance(set, line, camera_from_model * line.position.cast<double>()));
+      cost += r * r;
+      if (!residuals.empty()) residuals[i++] = static_cast<float>(r);
+    }
+  }
+  return cost;
+}
+
+void write_jacobian(std::span<const LineSet> sets, std::span<const double> state,
+                    Jacobian& jacobian) {
+  Eigen::Index i = 0;
+  for (const LineSet& set : sets) {
+    const std::span<const double> pose = pose_of(set, state);
+    const Eigen::Isometry3d model = world_from_model(pose);
+    for (const CorrespondenceLine& line : set.lines) {
+      const Eigen::Vector3d x = line.position.cast<double>();
+      const Eigen::Vector3d at = set.camera.camera_from_world * (model * x);
+      const double d = distance(set, line, at);
+      auto row = jacobian.row(i++).segment<kPoseSize>(set.offset);
+      if (std::isinf(d)) continue;
+      const double bend = std::hypot(1, d / set.reach);
+      const double scale = std::sqrt(set.weight / line.variance) / (bend * bend * bend);
+      const Eigen::RowVector3d slope = scale * (set.camera.camera_from_world.linear().transpose() *
+                                                pixel_slope(set.camera, at, line.normal))
+                                                   .transpose();
+      row.head<3>() = slope.cast<float>();
+      row.tail<4>() = (slope * turn_slopes(pose, x)).cast<float>();
+    }
+  }
+}
+
+}  // namespace hypotrack::contour

@@ -1,0 +1,90 @@
+#include "model_contours.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cache_file.hpp"
+#include "hypotrack/renderer.hpp"
+#include "trace_contour.hpp"
+
+namespace hypotrack::contour {
+namespace {
+
+// Distance of the drawn views in radii of the model. Outlines change little with distance beyond.
+constexpr float kDistance = 5;
+constexpr int kPixels = 400;      // along a side of a drawn view
+constexpr double kMargin = 0.95;  // share of a view that the model may fill
+
+/// Returns the camera at `position` that looks at `target` and just holds a ball about it.
+Camera camera_at(const Eigen::Vector3f& position, const Eigen::Vector3f& target) {
+  Camera camera;
+  camera.width = camera.height = kPixels;
+  camera.fx = camera.fy = kMargin * kPixels / 2 / std::tan(std::asin(1.0 / kDistance));
+  camera.cx = camera.cy = (kPixels - 1) / 2.0;
+  const Eigen::Vector3d forward = (target - position).cast<double>().normalized();
+  Eigen::Matrix3d world_from_camera;
+  world_from_camera.col(0) = forward.unitOrthogonal();
+  world_from_camera.col(1) = forward.cross(world_from_camera.col(0));
+  world_from_camera.col(2) = forward;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = world_from_camera;
+  pose.translation() = position.cast<double>();
+  camera.camera_from_world = pose.inverse();
+  return camera;
+}
+
+std::string size_of(const ContourViews& views) {
+  return fmt::format("{} views, {:.1f} MB", views.directions().cols(),
+                     static_cast<double>(views.points().size_bytes()) / 1e6);
+}
+
+}  // namespace
+
+bool is_rigid(const Model& model) {
+  return model.dimension() == kPoseSize && !model.poses_itself();
+}
+
+ContourViews draw_contours(const std::shared_ptr<const Model>& model,
+                           const ViewSettings& settings) {
+  const Eigen::Matrix3Xf& vertices = model->data().mesh.vertices;
+  const Eigen::Vector3f centre =
+      (vertices.rowwise().minCoeff() + vertices.rowwise().maxCoeff()) / 2;
+  const float radius = (vertices.colwise() - centre).colwise().norm().maxCoeff();
+  const Scene scene({{"model", model}});
+  Renderer renderer(scene);
+  const RenderStyle style{.textured = false, .samples = 1};
+  Eigen::Matrix3Xf directions = sphere_directions(settings.subdivisions);
+  std::vector<std::uint32_t> first{0};
+  std::vector<ContourPoint> points;
+  for (const Eigen::Vector3f direction : directions.colwise()) {
+    const Camera camera = camera_at(centre + kDistance * radius * direction, centre);
+    const cv::Mat1f depth = renderer.render(scene.rest_state(), camera, style).depth;
+    const std::vector<ContourPoint> traced = trace_contour(depth, camera, settings.points);
+    points.insert(points.end(), traced.begin(), traced.end());
+    first.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  return {centre, std::move(directions), std::move(first), std::move(points)};
+}
+
+ContourViews model_contours(const std::shared_ptr<const Model>& model, const Params& params,
+                            const PluginLog& log) {
+  const CacheFile file(params.cache, model->data().mesh, params.views);
+  std::string problem;
+  if (std::optional<ContourViews> kept = file.read(problem)) return std::move(*kept);
+  if (!problem.empty()) log.note(problem);
+  ContourViews drawn = draw_contours(model, params.views);
+  problem = file.write(drawn);
+  if (problem.empty())
+    log.note(fmt::format("drew the outlines of a model ({}) into {}", size_of(drawn),
+                         file.path().string()));
+  else
+    log.warning(problem);
+  return drawn;
+}
+
+}  // namespace hypotrack::contour
