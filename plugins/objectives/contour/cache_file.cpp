@@ -33,7 +33,7 @@ struct Header {
   std::uint64_t checksum;  ///< of all bytes behind the header
 };
 static_assert(std::is_trivially_copyable_v<Header> && sizeof(Header) == 64);
-static_assert(sizeof(ContourPoint) == 8 * sizeof(float));
+static_assert(sizeof(ContourPoint) == 14 * sizeof(float));
 
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991) of 64 bits.
 class Hash {

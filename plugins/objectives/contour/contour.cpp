@@ -43,19 +43,14 @@ void set_pose(const Eigen::Isometry3d& pose, int offset, Eigen::VectorXd& state)
 
 }  // namespace
 
-Contour::Contour(const Params& params, const Scene& scene, PluginLog log, const std::string& where)
-    : params_(params) {
+Contour::Contour(const Params& params, const Scene& scene, const PluginLog& log) : params_(params) {
   for (const Scene::Item& item : scene.items()) {
     if (is_rigid(*item.model))
       models_.push_back({item.offset, model_contours(item.model, params, log)});
     else
       log.note(fmt::format("model '{}' has joints; its contour is not looked at", item.name));
   }
-  if (!models_.empty()) return;
-  throw ConfigError(
-      fmt::format("{}: objective contour: none of the {} models is rigid; expected one, such as a "
-                  "rigid_mesh or a rigid_box. Leave the objective out",
-                  where, scene.items().size()));
+  if (models_.empty()) log.warning("no model is rigid; the objective costs nothing");
 }
 
 void Contour::prepare(const Observation& observation) {

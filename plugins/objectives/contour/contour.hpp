@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "color_histograms.hpp"
@@ -29,14 +28,13 @@ namespace hypotrack::contour {
 /// with d the distance in pixels of the outline's point from the line's mean (line_term.hpp).
 ///
 /// Colours are learned along the outlines of the start, and then of every answer. Models with
-/// joints cost nothing. A model before another one counts as background.
+/// joints cost nothing. Of two models, the one behind takes the other for background.
 class Contour : public Objective, public ResidualTerm, public RefinesStart {
  public:
   using Params = contour::Params;
 
-  /// The scene must outlive it. Draws models that are not in the cache. Throws ConfigError, naming
-  /// `where`, if no model is rigid.
-  Contour(const Params& params, const Scene& scene, PluginLog log, const std::string& where);
+  /// Draws models that are not in the cache.
+  Contour(const Params& params, const Scene& scene, const PluginLog& log = {});
 
   bool needs_rendering() const override { return false; }
   ImageUse image_use() const override { return {.mask = false, .depth = false}; }

@@ -12,6 +12,10 @@ struct ContourPoint {
   Eigen::Vector3f position;
   /// Unit normal, outwards, of the plane through the camera's centre and the outline's tangent.
   Eigen::Vector3f normal;
+  /// Unit normals of the mesh's sharp edge there, of the side that is seen and of the other. From
+  /// elsewhere the edge is part of the outline only while one faces the camera and the other does
+  /// not. Zero: unknown, or the surface is smooth.
+  Eigen::Vector3f front, back;
   float inside;   ///< length along the normal over which the model is seen
   float outside;  ///< length along the normal over which it is not
 };

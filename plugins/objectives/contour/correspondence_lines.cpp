@@ -29,11 +29,29 @@ Segments sum_segments(const cv::Mat1f& log_odds, const SeenPoint& point, int sca
   return out;
 }
 
-/// Returns the place of the outline on a line. Lines of one-pixel segments are refined.
-Place place_of(const SeenPoint& point, const RegionView& view, int scale) {
-  Segments segments = sum_segments(view.log_odds, point, scale);
-  for (float& segment : segments) segment = 2 / (1 + pixel::exp(-segment)) - 1;
-  const Place place = find_place(segments);
+/// Returns whether most segments just inside a place show colours that were seen on neither side:
+/// something else is before the model.
+bool is_hidden(const Segments& log_odds, const Place& place) {
+  constexpr float kNoEvidence = 1e-4f;
+  constexpr int kInside = kSupport / 2;
+  int unseen = 0;
+  for (int k = 0; k < kSegments; ++k) {
+    const float off = from_middle(k) - place.mean;
+    if (off < 0 && off >= -kInside && std::abs(log_odds[static_cast<std::size_t>(k)]) < kNoEvidence)
+      ++unseen;
+  }
+  return 2 * unseen > kInside;
+}
+
+/// Returns the place of the outline on a line; nothing where the model is hidden. Lines of
+/// one-pixel segments are refined.
+std::optional<Place> place_of(const SeenPoint& point, const RegionView& view, int scale) {
+  const Segments log_odds = sum_segments(view.log_odds, point, scale);
+  Segments likeness;
+  for (std::size_t k = 0; k < likeness.size(); ++k)
+    likeness[k] = 2 / (1 + pixel::exp(-log_odds[k])) - 1;
+  const Place place = find_place(likeness);
+  if (is_hidden(log_odds, place)) return std::nullopt;
   return scale > 1 ? place : refine_place(place, view.color, point.pixel, point.normal);
 }
 
@@ -49,6 +67,10 @@ std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f
   out.pixel = {fx * out.position.x() / z + static_cast<float>(camera.cx),
                fy * out.position.y() / z + static_cast<float>(camera.cy)};
   if (!(out.pixel.cwiseAbs().maxCoeff() < kFarthest)) return std::nullopt;
+  if (!point.front.isZero()) {
+    const Eigen::Vector3f to_camera = -(camera_from_model.linear().transpose() * out.position);
+    if (point.front.dot(to_camera) < 0 || point.back.dot(to_camera) > 0) return std::nullopt;
+  }
   const Eigen::Vector3f plane = camera_from_model.linear() * point.normal;
   const Eigen::Vector2f normal(plane.x() / fx, plane.y() / fy);
   const float length = normal.norm();
@@ -71,9 +93,10 @@ std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline
     const int x = static_cast<int>(std::floor(here->pixel.x() + 0.5f));
     const int y = static_cast<int>(std::floor(here->pixel.y() + 0.5f));
     if (x < 0 || y < 0 || x >= view.color.cols || y >= view.color.rows) continue;
-    const Place place = place_of(*here, view, scale);
-    out.push_back({point.position, here->pixel, here->normal, place.mean * pixels,
-                   place.variance * pixels * pixels});
+    const std::optional<Place> place = place_of(*here, view, scale);
+    if (!place) continue;
+    out.push_back({point.position, here->pixel, here->normal, place->mean * pixels,
+                   place->variance * pixels * pixels});
   }
   return out;
 }

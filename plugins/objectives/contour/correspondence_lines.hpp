@@ -20,7 +20,8 @@ struct SeenPoint {
   float inside, outside;   ///< pixels along the normal over which the model is seen, or is not
 };
 
-/// Returns how a camera sees a point of the outline; nothing behind the camera.
+/// Returns how a camera sees a point of the outline. Nothing behind the camera, or where an edge is
+/// no longer the outline.
 std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f& camera_from_model,
                               const TileCamera& camera);
 
@@ -45,7 +46,8 @@ struct CorrespondenceLine {
 /// A. Albu-Schaeffer, "SRT3D: A sparse region-based 3D object tracking approach for the real
 /// world", IJCV 2022, section 3): pixels are independent, `scale` of them in a row make a segment,
 /// and a smoothed step says how the probability of the model falls across the outline. Lines of
-/// one-pixel segments are refined (refine_place()). Lines across thin parts are left out.
+/// one-pixel segments are refined (refine_place()). Lines across
+/// thin parts are left out, and those where unknown colours hide the model.
 std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline,
                                            const Eigen::Isometry3f& camera_from_model,
                                            const RegionView& view, int scale);

@@ -60,10 +60,9 @@ Place refine_place(const Place& place, const cv::Mat3b& color, const Eigen::Vect
   Segments likeness;
   for (std::size_t k = 0; k < colors.size(); ++k)
     likeness[k] = 2 * std::clamp(contrast.dot(colors[k] - beside) / square, 0.0f, 1.0f) - 1;
-  Place out = find_place(likeness);
-  const float apart = out.mean - place.mean;
-  out.variance += kDisagreement * apart * apart;
-  return out;
+  const float mean = find_place(likeness).mean;
+  const float apart = mean - place.mean;
+  return {mean, place.variance + kDisagreement * apart * apart};
 }
 
 }  // namespace hypotrack::contour

@@ -10,6 +10,7 @@
 
 #include "cache_file.hpp"
 #include "hypotrack/renderer.hpp"
+#include "silhouette_edges.hpp"
 #include "trace_contour.hpp"
 
 namespace hypotrack::contour {
@@ -38,6 +39,29 @@ Camera camera_at(const Eigen::Vector3f& position, const Eigen::Vector3f& target)
   return camera;
 }
 
+/// Returns a traced point in the model's frame, on the mesh's edge if one is there.
+ContourPoint lifted(const TracedPoint& traced, const Camera& camera, const SilhouetteEdges& edges) {
+  const Eigen::Isometry3f model_from_camera = camera.camera_from_world.inverse().cast<float>();
+  const auto f = static_cast<float>(camera.fx), c = static_cast<float>(camera.cx);
+  const Eigen::Vector2f ray = (traced.position - Eigen::Vector2f(c, c)) / f;
+  const Eigen::Vector2f& n = traced.normal;
+  ContourPoint out{};
+  out.position = model_from_camera * (traced.depth * ray.homogeneous());
+  out.normal = model_from_camera.linear() * Eigen::Vector3f(n.x(), n.y(), -n.dot(ray)).normalized();
+  const float metres = traced.depth / f;  // per pixel
+  out.inside = metres * traced.inside;
+  out.outside = metres * traced.outside;
+  const std::optional<EdgePoint> edge = edges.nearest(traced.position, n);
+  if (!edge) return out;
+  const Eigen::Vector3f plane =
+      edge->direction.cross(edge->position - model_from_camera.translation()).normalized();
+  out.position = edge->position;
+  out.normal = plane.dot(out.normal) < 0 ? -plane : plane;
+  out.front = edge->front;
+  out.back = edge->back;
+  return out;
+}
+
 std::string size_of(const ContourViews& views) {
   return fmt::format("{} views, {:.1f} MB", views.directions().cols(),
                      static_cast<double>(views.points().size_bytes()) / 1e6);
@@ -57,6 +81,7 @@ ContourViews draw_contours(const std::shared_ptr<const Model>& model,
   const float radius = (vertices.colwise() - centre).colwise().norm().maxCoeff();
   const Scene scene({{"model", model}});
   Renderer renderer(scene);
+  SilhouetteEdges edges(model->data().mesh);
   const RenderStyle style{.textured = false, .samples = 1};
   Eigen::Matrix3Xf directions = sphere_directions(settings.subdivisions);
   std::vector<std::uint32_t> first{0};
@@ -64,8 +89,9 @@ ContourViews draw_contours(const std::shared_ptr<const Model>& model,
   for (const Eigen::Vector3f direction : directions.colwise()) {
     const Camera camera = camera_at(centre + kDistance * radius * direction, centre);
     const cv::Mat1f depth = renderer.render(scene.rest_state(), camera, style).depth;
-    const std::vector<ContourPoint> traced = trace_contour(depth, camera, settings.points);
-    points.insert(points.end(), traced.begin(), traced.end());
+    edges.see(camera);
+    for (const TracedPoint& traced : trace_contour(depth, settings.points))
+      points.push_back(lifted(traced, camera, edges));
     first.push_back(static_cast<std::uint32_t>(points.size()));
   }
   return {centre, std::move(directions), std::move(first), std::move(points)};

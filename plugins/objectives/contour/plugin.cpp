@@ -7,7 +7,7 @@ namespace {
 class Plugin final : public hypotrack::contour::Contour {
  public:
   Plugin(const Params& params, hypotrack::PluginContext& context)
-      : Contour(params, context.scene(), context.log(), context.config().where()) {}
+      : Contour(params, context.scene(), context.log()) {}
 };
 
 }  // namespace

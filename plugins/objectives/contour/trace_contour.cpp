@@ -1,6 +1,5 @@
 #include "trace_contour.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,16 +67,14 @@ std::optional<Piece> piece(const cv::Mat1b& mask, const std::vector<cv::Point>& 
 
 }  // namespace
 
-std::vector<ContourPoint> trace_contour(const cv::Mat1f& depth, const Camera& camera, int count) {
+std::vector<TracedPoint> trace_contour(const cv::Mat1f& depth, int count) {
   const cv::Mat1b mask = depth > 0;
   std::vector<std::vector<cv::Point>> chains;
   cv::findContours(mask, chains, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   std::size_t all = 0;
   for (const auto& chain : chains) all += chain.size();
   const double step = static_cast<double>(all) / count;
-  const Eigen::Isometry3f world_from_camera = camera.camera_from_world.inverse().cast<float>();
-  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
-  std::vector<ContourPoint> out;
+  std::vector<TracedPoint> out;
   double next = 0;
   for (const auto& chain : chains) {
     const auto size = static_cast<double>(chain.size());
@@ -85,17 +82,10 @@ std::vector<ContourPoint> trace_contour(const cv::Mat1f& depth, const Camera& ca
       const int i = static_cast<int>(next);
       const std::optional<Piece> found = piece(mask, chain, i);
       if (!found) continue;
-      const cv::Point& pixel = chain[static_cast<std::size_t>(i)];
-      const float z = depth(pixel);
-      const float x = (found->position.x() - static_cast<float>(camera.cx)) / fx;
-      const float y = (found->position.y() - static_cast<float>(camera.cy)) / fy;
       const Eigen::Vector2f n = found->normal;
-      const Eigen::Vector3f plane(n.x() * fx, n.y() * fy, -(n.x() * fx * x + n.y() * fy * y));
-      const float metres = z / fx;  // per pixel
-      out.push_back({world_from_camera * Eigen::Vector3f(x * z, y * z, z),
-                     world_from_camera.linear() * plane.normalized(),
-                     metres * length(mask, found->position - n, -n, true),
-                     metres * length(mask, found->position + n, n, false)});
+      out.push_back({found->position, n, depth(chain[static_cast<std::size_t>(i)]),
+                     length(mask, found->position - n, -n, true),
+                     length(mask, found->position + n, n, false)});
     }
     next -= size;
   }

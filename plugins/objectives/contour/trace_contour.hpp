@@ -1,16 +1,21 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "contour_views.hpp"
-#include "hypotrack/camera.hpp"
-
 namespace hypotrack::contour {
 
-/// Traces the outline of a drawn model and returns about `count` points of it, evenly along it, in
-/// the world's frame. `depth` is z in metres, 0 beside the model (32-bit float). Leaves out
-/// corners, which have no normal. Holes have outlines, too.
-std::vector<ContourPoint> trace_contour(const cv::Mat1f& depth, const Camera& camera, int count);
+/// A point of an outline in a picture, in pixels.
+struct TracedPoint {
+  Eigen::Vector2f position;  ///< on the edge, between the pixels
+  Eigen::Vector2f normal;    ///< unit, outwards
+  float depth;               ///< of the border pixel beside it
+  float inside, outside;     ///< length along the normal with the model, and without it
+};
+
+/// Traces the outline of a drawn model and returns about `count` points, evenly along it. `depth`
+/// is 0 beside the model. Leaves out corners, which have no normal. Holes have outlines, too.
+std::vector<TracedPoint> trace_contour(const cv::Mat1f& depth, int count);
 
 }  // namespace hypotrack::contour

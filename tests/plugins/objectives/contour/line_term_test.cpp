@@ -1,0 +1,62 @@
+#include "line_term.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "box_pictures.hpp"
+#include "jacobian_contract.hpp"
+#include "test_models.hpp"
+#include "written_residuals.hpp"
+
+namespace hypotrack::contour {
+namespace {
+
+RenderedHypothesis hypothesis(const Eigen::VectorXd& state) { return {test::values_of(state), {}}; }
+
+TEST(LineTerm, JacobianIsThatOfTheResiduals) {
+  BoxPictures& pictures = box_pictures();
+  const auto objective = pictures.objective();
+  const Observation seen = pictures.seen(pictures.state(), pictures.state());
+  objective->prepare(seen);
+  ASSERT_GT(objective->residual_count(), 200);
+  std::mt19937_64 random(1);
+  contract::check_jacobian(*objective, pictures.scene(), hypothesis(pictures.state()), "at it");
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd state = test::random_state(pictures.scene(), random);
+    contract::check_jacobian(*objective, pictures.scene(), hypothesis(state), "anywhere");
+  }
+}
+
+TEST(LineTerm, CostIsTheSumOfSquares) {
+  BoxPictures& pictures = box_pictures();
+  const auto objective = pictures.objective();
+  objective->prepare(pictures.seen(pictures.state(), pictures.state()));
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 5; ++i) {
+    const Eigen::VectorXd state = test::random_state(pictures.scene(), random);
+    const double squares =
+        test::sum_of_squares(test::written_residuals(*objective, hypothesis(state)));
+    EXPECT_NEAR(squares, objective->cost(hypothesis(state)), 1e-4 * squares);
+  }
+}
+
+TEST(LineTerm, IsBoundedAndTheSameBehindTheCamera) {
+  LineSet set{.camera = {100, 100, 100, 100, 50, 50, Eigen::Isometry3d::Identity()},
+              .weight = 0.25,
+              .reach = 10,
+              .lines = {{{0, 0, 0}, {50, 50}, {1, 0}, 0, 4}}};
+  const auto cost = [&](double x, double z) {
+    const double state[] = {x, 0, z, 1, 0, 0, 0};
+    return cost_and_residuals({&set, 1}, state, {});
+  };
+  EXPECT_NEAR(cost(0.01, 1), 0.25 * 1 / 4 / (1 + 0.01), 1e-9);  // one pixel off
+  const double most = 0.25 * 100 / 4;
+  EXPECT_LT(cost(5, 1), most);
+  EXPECT_GT(cost(5, 1), 0.99 * most);
+  EXPECT_NEAR(cost(0, -1), most, 1e-9);
+  EXPECT_NEAR(cost(0, 0), most, 1e-9);
+}
+
+}  // namespace
+}  // namespace hypotrack::contour
