@@ -22,9 +22,10 @@ void ColorHistograms::learn(double weight) {
     const auto part = is_empty() ? 1.0f : static_cast<float>(weight);
     on_.mix(part);
     beside_.mix(part);
-    log_odds_.resize(kBins);
+    log_odds_.assign(kBins, 0);
     for (std::size_t i = 0; i < kBins; ++i)
-      log_odds_[i] = std::log((on_.shares[i] + kUnseen) / (beside_.shares[i] + kUnseen));
+      if (on_.shares[i] + beside_.shares[i] > 0)
+        log_odds_[i] = std::log((on_.shares[i] + kUnseen) / (beside_.shares[i] + kUnseen));
   }
   discard();
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "hypotrack/error.hpp"
@@ -98,8 +99,11 @@ void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
   std::vector<RegionView> regions;
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (views[i].color.empty() || model.colors[i].is_empty()) continue;
-    regions.push_back({&views[i].camera, views[i].color,
-                       model.colors[i].log_odds(views[i].color, views[i].valid)});
+    cv::Mat with_alpha, color;
+    cv::cvtColor(views[i].color, with_alpha, cv::COLOR_BGR2BGRA);
+    with_alpha.convertTo(color, CV_32F);
+    regions.push_back(
+        {&views[i].camera, color, model.colors[i].log_odds(views[i].color, views[i].valid)});
   }
   const Eigen::Isometry3d pose =
       fit_region(model.contours, pose_of(refined_, model.offset), regions);

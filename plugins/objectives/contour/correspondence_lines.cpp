@@ -22,9 +22,9 @@ Segments sum_segments(const cv::Mat1f& log_odds, const SeenPoint& point, int sca
   Eigen::Vector2f at = point.pixel + from * point.normal;
   for (float& segment : out)
     for (int i = 0; i < scale; ++i, at += point.normal) {
-      const int x = static_cast<int>(std::floor(at.x() + 0.5f));
-      const int y = static_cast<int>(std::floor(at.y() + 0.5f));
-      if (x >= 0 && y >= 0 && x < log_odds.cols && y < log_odds.rows) segment += log_odds(y, x);
+      if (!(at.x() > -0.5f) || !(at.y() > -0.5f)) continue;
+      const int x = static_cast<int>(at.x() + 0.5f), y = static_cast<int>(at.y() + 0.5f);
+      if (x < log_odds.cols && y < log_odds.rows) segment += log_odds(y, x);
     }
   return out;
 }

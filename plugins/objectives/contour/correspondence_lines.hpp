@@ -28,7 +28,7 @@ std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f
 /// A view with the log odds of its pixels (ColorHistograms::log_odds()).
 struct RegionView {
   const TileCamera* camera;
-  cv::Mat3b color;
+  cv::Mat4f color;  ///< blue, green and red, 0 to 255
   cv::Mat1f log_odds;
 };
 

@@ -12,8 +12,8 @@ namespace hypotrack::contour {
 /// a third of a pixel. So the share of the model in each pixel is found between the line's mean
 /// colours on both sides of `place`. Lines of little contrast stay as they are. Where both ways
 /// disagree, the variance grows.
-/// `middle` is the line's middle in the image (8-bit BGR), `normal` points outwards.
-Place refine_place(const Place& place, const cv::Mat3b& color, const Eigen::Vector2f& middle,
+/// `middle` is the line's middle in the image (BGR, 0 to 255), `normal` points outwards.
+Place refine_place(const Place& place, const cv::Mat4f& color, const Eigen::Vector2f& middle,
                    const Eigen::Vector2f& normal);
 
 }  // namespace hypotrack::contour

@@ -27,6 +27,12 @@ cv::Mat3b edge_at(double edge, const cv::Vec3b& on = kOn, const cv::Vec3b& besid
   return out;
 }
 
+cv::Mat4f with_alpha(const cv::Mat3b& color) {
+  cv::Mat4b bytes;
+  cv::cvtColor(color, bytes, cv::COLOR_BGR2BGRA);
+  return cv::Mat4f(bytes);
+}
+
 ColorHistograms learned(const cv::Vec3b& on = kOn, const cv::Vec3b& beside = kBeside) {
   ColorHistograms out;
   for (int i = 0; i < 2000; ++i) {
@@ -41,7 +47,7 @@ ColorHistograms learned(const cv::Vec3b& on = kOn, const cv::Vec3b& beside = kBe
 CorrespondenceLine line_in(const cv::Mat3b& color, int scale, const ColorHistograms& colors) {
   const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
   const cv::Mat1b valid(60, 60, uchar{255});
-  const RegionView view{&camera, color, colors.log_odds(color, valid)};
+  const RegionView view{&camera, with_alpha(color), colors.log_odds(color, valid)};
   const ContourPoint point{
       {0.3f, 0.3f, 1}, Eigen::Vector3f(1, 0, -0.3f).normalized(), {0, 0, 0}, {0, 0, 0}, 1, 1};
   const auto lines = find_lines({&point, 1}, Eigen::Isometry3f::Identity(), view, scale);
@@ -137,7 +143,7 @@ TEST(Line, IsNotPulledInwardsByMixturesThatTheGroundHasToo) {
 
 TEST(Line, OfLittleContrastKeepsThePlaceOfItsHistograms) {
   const cv::Vec3b on(100, 100, 100), beside(118, 100, 100);
-  const cv::Mat3b picture = edge_at(32, on, beside);
+  const cv::Mat4f picture = with_alpha(edge_at(32, on, beside));
   const Place place{1.5f, 0.7f};
   const Place kept = refine_place(place, picture, {30, 30}, {1, 0});
   EXPECT_EQ(kept.mean, place.mean);
@@ -145,7 +151,7 @@ TEST(Line, OfLittleContrastKeepsThePlaceOfItsHistograms) {
 }
 
 TEST(Line, IsLessSureWhereBothWaysDisagree) {
-  const cv::Mat3b picture = edge_at(30);
+  const cv::Mat4f picture = with_alpha(edge_at(30));
   const Place near = refine_place({0, 0.5f}, picture, {30, 30}, {1, 0});
   const Place far = refine_place({1.4f, 0.5f}, picture, {30, 30}, {1, 0});
   EXPECT_GT(far.variance, near.variance + 2);
@@ -153,8 +159,7 @@ TEST(Line, IsLessSureWhereBothWaysDisagree) {
 
 TEST(Line, AcrossAThinPartIsLeftOut) {
   const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
-  const cv::Mat3b color = edge_at(30);
-  const RegionView view{&camera, color, cv::Mat1f(60, 60, 1.0f)};
+  const RegionView view{&camera, with_alpha(edge_at(30)), cv::Mat1f(60, 60, 1.0f)};
   const auto count = [&](float inside, float outside, int scale) {
     const ContourPoint point{{0.3f, 0.3f, 1}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, inside, outside};
     return find_lines({&point, 1}, Eigen::Isometry3f::Identity(), view, scale).size();
