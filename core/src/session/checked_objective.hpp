@@ -63,7 +63,7 @@ class CheckedObjective final : public Objective, public ResidualTerm, public Ref
   void check_finite(std::span<const float> numbers, const char* what) const;
 
   std::unique_ptr<Objective> objective_;
-  const ResidualTerm* residuals_;  ///< of the objective; null: none
+  const ResidualTerm* residuals_;      ///< of the objective; null: none
   const RefinesStart* refines_start_;  ///< the objective; null: it does not
   Eigen::Index dimension_ = 0;         ///< of the prepared frame's state
   std::string who_;
