@@ -42,9 +42,9 @@ struct NewSceneOptions {
 };
 
 std::vector<std::string> model_words() {
-  return {"hand", "left_hand", "two_hands", "hand_and_box"};
+  return {"hand", "left_hand", "two_hands", "hand_and_box", "box"};
 }
-std::vector<std::string> tracker_words() { return {"real", "recommended", "real_time"}; }
+std::vector<std::string> tracker_words() { return {"real", "recommended", "real_time", "rigid"}; }
 
 /// Throws ConfigError if a word is none of those.
 void expect_one_of(const std::vector<std::string>& words, const std::string& word) {
@@ -157,10 +157,11 @@ SceneRequest request_of(const NewSceneOptions& options) {
   request.units = options.units;
   if (options.scale) request.scale = std::stod(*options.scale);
   request.model = word_of({"--model", "what to track", "hand"}, options.model, model_words());
-  if (request.model != "hand_and_box" && !options.box.empty())
-    throw ConfigError(
-        fmt::format("--box: found with --model {}, expected --model hand_and_box", request.model));
-  if (request.model == "hand_and_box") {
+  const bool box = request.model == "hand_and_box" || request.model == "box";
+  if (!box && !options.box.empty())
+    throw ConfigError(fmt::format(
+        "--box: found with --model {}, expected --model hand_and_box or box", request.model));
+  if (box) {
     const auto take = [&](const std::string& text) { request.box_mm = box_size_mm(text); };
     if (options.box.empty())
       ask({.option = "--box", .text = "the edges of the box, such as 60x120x30mm"}, take);
@@ -168,7 +169,9 @@ SceneRequest request_of(const NewSceneOptions& options) {
       take(options.box);
   }
   const bool one_hand = request.model == "hand" || request.model == "left_hand";
-  const std::string usual = request.recording.live && one_hand ? "real_time" : "real";
+  const std::string usual = request.model == "box"               ? "rigid"
+                            : request.recording.live && one_hand ? "real_time"
+                                                                 : "real";
   request.tracker =
       word_of({"--tracker", "which tracker", usual}, options.tracker, tracker_words());
   return request;
@@ -323,7 +326,7 @@ void add_new_command(const Command& root, CommonOptions& common, int& exit_code)
             {.required = true, .check = file_name()});
   add_recording_options(scene, *options);
   scene.add("--model", &options->model, "Models to track", {.check = one_of(model_words())});
-  scene.add("--box", &options->box, "Edges of the box of hand_and_box: 60x120x30mm");
+  scene.add("--box", &options->box, "Edges of the box: 60x120x30mm");
   scene.add("--tracker", &options->tracker, "Tracker", {.check = one_of(tracker_words())});
   scene.add("--force", &options->force, "Replace the file if it is there");
   scene.on_call([=, &common, &exit_code] { exit_code = new_scene(*options, common); });

@@ -26,9 +26,9 @@ struct SceneRequest {
   std::vector<std::string> cameras;  ///< of the calibration; empty: all
   std::string units;                 ///< of the calibration; empty: what its file says
   std::optional<double> scale;       ///< of the calibration
-  std::string model;                 ///< hand, left_hand, two_hands or hand_and_box
+  std::string model;                 ///< hand, left_hand, two_hands, hand_and_box or box
   Eigen::Vector3d box_mm{0, 0, 0};
-  std::string tracker;  ///< real, recommended or real_time
+  std::string tracker;  ///< real, recommended, real_time or rigid
 };
 
 /// Returns the scene as YAML. Paths are relative to `folder`, the scene's, if they lie near it.

@@ -41,8 +41,9 @@ std::vector<YamlDocument> models(const SceneRequest& request) {
     out.push_back(model("left", "mirrored_hand"));
     return out;
   }
-  out.push_back(model("hand", request.model == "left_hand" ? "mirrored_hand" : "hand"));
-  if (request.model == "hand_and_box") {
+  if (request.model != "box")
+    out.push_back(model("hand", request.model == "left_hand" ? "mirrored_hand" : "hand"));
+  if (request.model == "hand_and_box" || request.model == "box") {
     const Eigen::Vector3d& size = request.box_mm;
     out.emplace_back(fmt::format("{{name: box, type: rigid_box, size_mm: [{}, {}, {}]}}", size.x(),
                                  size.y(), size.z()));
@@ -76,7 +77,19 @@ YamlDocument source(const SceneRequest& request, const std::filesystem::path& fo
   return out;
 }
 
+/// Throws unless a tracker of objects is for an object, and no other one is but recommended.
+void check_tracker_of_object(const SceneRequest& request) {
+  const bool object = request.model == "box";
+  const bool good = request.tracker == "recommended" || object == (request.tracker == "rigid");
+  if (good) return;
+  throw ConfigError(
+      fmt::format("--tracker {} tracks {}, found --model {}; expected --tracker {} or recommended",
+                  request.tracker, object ? "hands" : "rigid objects", request.model,
+                  object ? "rigid" : "real"));
+}
+
 std::string tracker_name(const SceneRequest& request) {
+  check_tracker_of_object(request);
   const bool two_hands = request.model == "two_hands";
   if (request.tracker == "real_time" && (two_hands || request.model == "hand_and_box"))
     throw ConfigError(

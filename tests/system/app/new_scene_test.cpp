@@ -90,6 +90,8 @@ TEST_F(NewSceneTest, EveryModelHasATracker) {
                     HasSubstr("@trackers/two_hands")));
   EXPECT_THAT(text_of({"--model", "hand_and_box", "--box", "6x12x3cm"}),
               AllOf(HasSubstr("size_mm: [60, 120, 30]"), HasSubstr("@trackers/recommended")));
+  EXPECT_THAT(text_of({"--model", "box", "--box", "60x120x30mm"}),
+              AllOf(HasSubstr("size_mm: [60, 120, 30]"), Not(HasSubstr("hand"))));
 }
 
 TEST_F(NewSceneTest, CamerasOfTheCalibrationAreChosenByName) {
@@ -210,7 +212,11 @@ TEST_F(NewSceneTest, MistakesSayWhatIsExpected) {
     expect_nothing_new(with({"--model", "hand_and_box", "--box", box}),
                        {std::string("--box: found '") + box, "60x120x30mm"});
   expect_nothing_new(with({"--model", "hand", "--box", "60x120x30mm"}),
-                     {"expected --model hand_and_box"});
+                     {"expected --model hand_and_box or box"});
+  expect_nothing_new(with({"--model", "hand", "--tracker", "rigid"}),
+                     {"--tracker rigid tracks rigid objects, found --model hand", "real"});
+  expect_nothing_new(with({"--model", "box", "--box", "60x120x30mm", "--tracker", "real"}),
+                     {"--tracker real tracks hands, found --model box", "rigid or recommended"});
   expect_nothing_new(with({"--model", "two_hands", "--tracker", "real_time"}),
                      {"--tracker real_time tracks one hand", "real or recommended"});
   expect_nothing_new(new_scene({"--recording", path("none").string()}),
@@ -230,10 +236,11 @@ TEST_F(NewSceneTest, ATerminalIsAskedForWhatIsNotGiven) {
                               file() + "' /dev/null";
   const Captured captured = capture_output({"/bin/sh", {"-c", command}}, {1, 2});
   EXPECT_EQ(captured.end.code, 0) << captured.output;
-  EXPECT_THAT(captured.output,
-              AllOf(HasSubstr("none: there is no such file or folder"),
-                    HasSubstr("what to track (hand, left_hand, two_hands, hand_and_box) [hand]: "),
-                    HasSubstr("found 'hnd'"), HasSubstr("which tracker")));
+  EXPECT_THAT(
+      captured.output,
+      AllOf(HasSubstr("none: there is no such file or folder"),
+            HasSubstr("what to track (hand, left_hand, two_hands, hand_and_box, box) [hand]: "),
+            HasSubstr("found 'hnd'"), HasSubstr("which tracker")));
   EXPECT_THAT(read_text(file()), HasSubstr("@trackers/real_time"));
 }
 
