@@ -16,21 +16,28 @@
 namespace hypotrack::contour {
 namespace {
 
+constexpr int kSurfacePoints = 800;  // on all sides; a camera sees less than half
+
 /// Throws unless a view has colour, and where colour or valid image are not the tile's.
-void check(const Observation& observation) {
-  bool any = false;
+void check(const Observation& observation, bool wants_depth) {
+  bool any = false, depth = false;
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
     const TileView& view = observation.views[i];
+    if (wants_depth && !view.depth.empty()) {
+      check_tile_image("contour", view.depth, CV_32FC1, view, i, "depth image");
+      depth = true;
+    }
     if (view.color.empty()) continue;
     any = true;
     check_tile_image("contour", view.color, CV_8UC3, view, i, "colour image");
     check_tile_image("contour", view.valid, CV_8UC1, view, i, "valid image");
   }
-  if (any) return;
+  if (any && depth == wants_depth) return;
   const std::size_t count = observation.views.size();
   throw DataError(fmt::format(
-      "objective contour: frame {} has {} view{}, none with colour; use a source of colour images",
-      observation.frame, count, count == 1 ? "" : "s"));
+      "objective contour: frame {} has {} view{}, none with {}; use a source that gives it{}",
+      observation.frame, count, count == 1 ? "" : "s", any ? "depth" : "colour",
+      any ? ", or leave depth_sigma_mm out" : ""));
 }
 
 Eigen::Isometry3d pose_of(const Eigen::VectorXd& state, int offset) {
@@ -47,7 +54,8 @@ void set_pose(const Eigen::Isometry3d& pose, int offset, Eigen::VectorXd& state)
 Contour::Contour(const Params& params, const Scene& scene, const PluginLog& log) : params_(params) {
   for (const Scene::Item& item : scene.items()) {
     if (is_rigid(*item.model))
-      models_.push_back({item.offset, model_contours(item.model, params, log)});
+      models_.push_back({item.offset, model_contours(item.model, params, log),
+                         spread_points(item.model->data().mesh, kSurfacePoints)});
     else
       log.note(fmt::format("model '{}' has joints; its contour is not looked at", item.name));
   }
@@ -55,9 +63,10 @@ Contour::Contour(const Params& params, const Scene& scene, const PluginLog& log)
 }
 
 void Contour::prepare(const Observation& observation) {
-  check(observation);
+  check(observation, params_.depth_sigma > 0);
   learn(observation);
   lines_.clear();
+  depths_.clear();
   refined_ = observation.start;
   for (const RigidModel& model : models_) fit(model, observation.views);
 }
@@ -105,18 +114,25 @@ void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
     regions.push_back(
         {&views[i].camera, color, model.colors[i].log_odds(views[i].color, views[i].valid)});
   }
+  DepthViews depth{.points = model.surface, .views = {}, .sigma = params_.depth_sigma};
+  for (const TileView& view : views)
+    if (params_.depth_sigma > 0 && !view.depth.empty()) depth.views.push_back(&view);
   const Eigen::Isometry3d pose =
-      fit_region(model.contours, pose_of(refined_, model.offset), regions);
+      fit_region(model.contours, pose_of(refined_, model.offset), regions, depth);
   set_pose(pose, model.offset, refined_);
   for (const RegionView& region : regions) {
     constexpr double kReach = 0.1;  // of a tile: a tenth of the model's size
     lines_.push_back({*region.camera, model.offset, 1.0 / static_cast<double>(regions.size()),
                       kReach * region.camera->width, lines_of(model.contours, pose, region, 1)});
   }
+  for (const TileView* view : depth.views)
+    depths_.push_back({model.offset, depth.sigma, 1.0 / static_cast<double>(depth.views.size()),
+                       match_depth(model.surface, pose, *view)});
 }
 
 double Contour::cost(const RenderedHypothesis& hypothesis) const {
-  return contour::cost_and_residuals(lines_, hypothesis.state, {});
+  return contour::cost_and_residuals(lines_, hypothesis.state, {}) +
+         contour::cost_and_residuals(depths_, hypothesis.state, {});
 }
 
 void Contour::write_residuals(const RenderedHypothesis& hypothesis,
@@ -126,13 +142,16 @@ void Contour::write_residuals(const RenderedHypothesis& hypothesis,
 
 double Contour::cost_and_residuals(const RenderedHypothesis& hypothesis,
                                    std::span<float> residuals) const {
-  return contour::cost_and_residuals(lines_, hypothesis.state, residuals);
+  const auto lines = static_cast<std::size_t>(contour::residual_count(lines_));
+  return contour::cost_and_residuals(lines_, hypothesis.state, residuals.first(lines)) +
+         contour::cost_and_residuals(depths_, hypothesis.state, residuals.subspan(lines));
 }
 
 void Contour::write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
                              Jacobian& jacobian) const {
-  contour::cost_and_residuals(lines_, hypothesis.state, residuals);
+  cost_and_residuals(hypothesis, residuals);
   contour::write_jacobian(lines_, hypothesis.state, jacobian);
+  contour::write_jacobian(depths_, hypothesis.state, contour::residual_count(lines_), jacobian);
 }
 
 }  // namespace hypotrack::contour

@@ -9,6 +9,7 @@
 
 #include "color_histograms.hpp"
 #include "contour_views.hpp"
+#include "depth_term.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/plugin_log.hpp"
 #include "hypotrack/refines_start.hpp"
@@ -25,7 +26,9 @@ namespace hypotrack::contour {
 ///
 ///   mean over views, sum over models and lines, of (d / sigma)^2 / (1 + (d / reach)^2),
 ///
-/// with d the distance in pixels of the outline's point from the line's mean (line_term.hpp).
+/// with d the distance in pixels of the outline's point from the line's mean (line_term.hpp). With
+/// `depth_sigma_mm`, points of the surface are pulled to the planes of measured ones
+/// (depth_term.hpp).
 ///
 /// Colours are learned along the outlines of the start, and then of every answer. Models with
 /// joints cost nothing. Of two models, the one behind takes the other for background.
@@ -37,13 +40,16 @@ class Contour : public Objective, public ResidualTerm, public RefinesStart {
   Contour(const Params& params, const Scene& scene, const PluginLog& log = {});
 
   bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.mask = false, .depth = false}; }
-  /// Uses the views with colour. Throws DataError if none has.
+  ImageUse image_use() const override { return {.mask = false, .depth = params_.depth_sigma > 0}; }
+  /// Uses the views with colour. Throws DataError if none has, and with `depth_sigma_mm` if none
+  /// has depth.
   void prepare(const Observation& observation) override;
   double cost(const RenderedHypothesis& hypothesis) const override;
 
   const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return contour::residual_count(lines_); }
+  std::int64_t residual_count() const override {
+    return contour::residual_count(lines_) + contour::residual_count(depths_);
+  }
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
@@ -58,6 +64,7 @@ class Contour : public Objective, public ResidualTerm, public RefinesStart {
   struct RigidModel {
     int offset;  ///< in the state
     ContourViews contours;
+    std::vector<SurfacePoint> surface;         ///< for depth
     std::vector<ColorHistograms> colors = {};  ///< one per view
   };
   /// A frame whose answer is not known yet.
@@ -78,6 +85,7 @@ class Contour : public Objective, public ResidualTerm, public RefinesStart {
   int learned_ = -1;        ///< the last frame that was learned from
   bool from_guess_ = true;  ///< nothing but guesses was learned from
   std::vector<LineSet> lines_;
+  std::vector<DepthSet> depths_;
   Eigen::VectorXd refined_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/model.hpp"
+#include "pose_slopes.hpp"
 
 namespace hypotrack::contour {
 namespace {
@@ -29,19 +30,6 @@ double residual(const LineSet& set, const CorrespondenceLine& line, double d) {
 
 std::span<const double> pose_of(const LineSet& set, std::span<const double> state) {
   return state.subspan(static_cast<std::size_t>(set.offset), kPoseSize);
-}
-
-/// Returns the derivatives of R(q) x by the components w, x, y, z of a unit quaternion.
-Eigen::Matrix<double, 3, 4> turn_slopes(std::span<const double> pose, const Eigen::Vector3d& x) {
-  const double w = pose[3];
-  const Eigen::Vector3d v(pose[4], pose[5], pose[6]);
-  Eigen::Matrix3d cross;
-  cross << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
-  Eigen::Matrix<double, 3, 4> out;
-  out.col(0) = 2 * (w * x + v.cross(x));
-  out.rightCols<3>() = 2 * (v.dot(x) * Eigen::Matrix3d::Identity() + v * x.transpose() -
-                            x * v.transpose() - w * cross);
-  return out;
 }
 
 }  // namespace
@@ -94,7 +82,7 @@ void write_jacobian(std::span<const LineSet> sets, std::span<const double> state
                                                 pixel_slope(set.camera, at, line.normal))
                                                    .transpose();
       row.head<3>() = slope.cast<float>();
-      row.tail<4>() = (slope * turn_slopes(pose, x)).cast<float>();
+      row.tail<4>() = (slope * quaternion_slopes(pose.subspan<3, 4>(), x)).cast<float>();
     }
   }
 }

@@ -26,6 +26,7 @@ struct Params {
   ViewSettings views;
   std::filesystem::path cache;
   double learning_rate = 0.2;
+  double depth_sigma = 0;
   void visit(ParamVisitor& v) {
     views.visit(v);
     v("cache", cache,
@@ -33,6 +34,13 @@ struct Params {
                "~/.cache"});
     v("learning_rate", learning_rate,
       {.help = "weight of the last frame's colours in the histograms", .min = 0, .max = 1});
+    v("depth_sigma_mm", depth_sigma,
+      {.help = "standard deviation of measured depth, against which the surfaces are fitted, too; "
+               "0: depth is not looked at",
+       .min = 0,
+       .max = 1000,
+       .unit = "mm",
+       .to_si = kMillimetre});
   }
 };
 

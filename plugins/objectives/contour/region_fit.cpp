@@ -16,7 +16,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr double kTurn = 2 * kDegree;
 constexpr double kMove = 6 * kMillimetre;
 constexpr int kFineSteps = 3;  // with segments of one pixel
-constexpr std::size_t kLeastLines = 12;
+constexpr std::size_t kLeastRows = 12;
 
 /// Returns the segments' lengths in pixels, from coarse to fine. The lines of the first reach as
 /// far as a third of the tile.
@@ -32,7 +32,7 @@ std::vector<int> scales(const TileCamera& camera) {
 struct Equations {
   Matrix6 a = Matrix6::Zero();
   Vector6 g = Vector6::Zero();
-  std::size_t lines = 0;
+  std::size_t rows = 0;
 
   void add(const std::vector<CorrespondenceLine>& all, const TileCamera& camera,
            const Eigen::Isometry3d& world_from_model) {
@@ -47,7 +47,21 @@ struct Equations {
       a.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
       g -= weight * double{line.mean} * row;
     }
-    lines += all.size();
+    rows += all.size();
+  }
+
+  void add(const std::vector<DepthMatch>& all, double sigma,
+           const Eigen::Isometry3d& world_from_model) {
+    for (const DepthMatch& match : all) {
+      const Eigen::Vector3d arm = world_from_model.linear() * match.model.position.cast<double>();
+      const Eigen::Vector3d normal = world_from_model.linear() * match.model.normal.cast<double>();
+      Vector6 row;
+      row << arm.cross(normal), normal;
+      const double weight = 1 / (sigma * sigma);
+      a.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+      g -= weight * beyond(match, world_from_model) * row;
+    }
+    rows += all.size();
   }
 
   Vector6 solve() const {
@@ -75,14 +89,16 @@ std::vector<CorrespondenceLine> lines_of(const ContourViews& model,
 }
 
 Eigen::Isometry3d fit_region(const ContourViews& model, Eigen::Isometry3d world_from_model,
-                             const std::vector<RegionView>& views) {
+                             const std::vector<RegionView>& views, const DepthViews& depth) {
   if (views.empty()) return world_from_model;
   Eigen::Isometry3d pose = world_from_model;
   for (const int scale : scales(*views.front().camera)) {
     Equations equations;
     for (const RegionView& view : views)
       equations.add(lines_of(model, pose, view, scale), *view.camera, pose);
-    if (equations.lines < kLeastLines) return world_from_model;
+    for (const TileView* view : depth.views)
+      equations.add(match_depth(depth.points, pose, *view), depth.sigma, pose);
+    if (equations.rows < kLeastRows) return world_from_model;
     move(pose, equations.solve());
   }
   return pose.matrix().allFinite() ? pose : world_from_model;

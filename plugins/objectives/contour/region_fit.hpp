@@ -5,6 +5,7 @@
 
 #include "contour_views.hpp"
 #include "correspondence_lines.hpp"
+#include "depth_term.hpp"
 #include "hypotrack/observation.hpp"
 
 namespace hypotrack::contour {
@@ -14,10 +15,17 @@ std::vector<CorrespondenceLine> lines_of(const ContourViews& model,
                                          const Eigen::Isometry3d& world_from_model,
                                          const RegionView& view, int scale);
 
-/// Moves a model to where the correspondence lines of all views say, from coarse to fine segments:
-/// Gauss-Newton steps on the lines' means and variances, with a prior on each step (SRT3D, sections
-/// 3.4 and 3.5). Returns the pose it was given where too few lines are seen.
+/// The views that measured depth, and the surface to fit to it.
+struct DepthViews {
+  std::span<const SurfacePoint> points;
+  std::vector<const TileView*> views;
+  double sigma = 1;  ///< of measured depth, metres
+};
+
+/// Moves a model to where the correspondence lines and the depth of all views say, from coarse to
+/// fine segments: Gauss-Newton steps on the lines' means and variances, with a prior on each step
+/// (SRT3D, sections 3.4 and 3.5). Returns the pose it was given where too little is seen.
 Eigen::Isometry3d fit_region(const ContourViews& model, Eigen::Isometry3d world_from_model,
-                             const std::vector<RegionView>& views);
+                             const std::vector<RegionView>& views, const DepthViews& depth);
 
 }  // namespace hypotrack::contour

@@ -65,17 +65,20 @@ Observation BoxPictures::seen(const Eigen::VectorXd& state, const Eigen::VectorX
     TileView tile;
     tile.camera = {from.width, from.height,           from.fx, from.fy, from.cx,
                    from.cy,    from.camera_from_world};
-    tile.color = renderer_.render(state, from, style, ground(view)).color;
+    const RenderedView drawn = renderer_.render(state, from, style, ground(view));
+    tile.color = drawn.color;
+    tile.depth = drawn.depth;
     tile.valid = cv::Mat1b(kSize, kSize, uchar{255});
     out.views.push_back(tile);
   }
   return out;
 }
 
-std::unique_ptr<Contour> BoxPictures::objective() const {
+std::unique_ptr<Contour> BoxPictures::objective(double depth_sigma) const {
   Params params;
   params.cache = cache_.path();
   params.views.subdivisions = 3;
+  params.depth_sigma = depth_sigma;
   return std::make_unique<Contour>(params, scene_);
 }
 

@@ -23,11 +23,12 @@ class BoxPictures {
   /// Returns a state some millimetres and degrees off.
   Eigen::VectorXd displaced(const Eigen::Vector3d& metres, const Eigen::Vector3d& turn) const;
 
-  /// Returns tiles of 160 x 160 pixels that show `state`, with a search that starts at `start`.
+  /// Returns tiles of 160 x 160 pixels that show `state`, and their depth, with a search that
+  /// starts at `start`.
   Observation seen(const Eigen::VectorXd& state, const Eigen::VectorXd& start);
 
   /// Returns the objective with a cache of its own, few views of which are drawn.
-  std::unique_ptr<Contour> objective() const;
+  std::unique_ptr<Contour> objective(double depth_sigma = 0) const;
 
  private:
   Scene scene_;

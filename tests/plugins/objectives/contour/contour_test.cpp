@@ -60,6 +60,36 @@ TEST_F(ContourTest, RefinesAStartWithOneCamera) {
   }
 }
 
+TEST_F(ContourTest, RefinesAStartWithOneCameraAndDepth) {
+  const auto objective = pictures_.objective(0.002);
+  Observation first = later({0}, pictures_.state());
+  first.frame = 0;
+  objective->prepare(first);
+  objective->prepare(later({0}, pictures_.displaced({0.006, -0.005, 0.004}, {0.02, 0, -0.03})));
+  EXPECT_LT(corner_distance_mm(objective->refined_start(), pictures_.state()), 0.6);
+}
+
+TEST_F(ContourTest, IgnoresDepthOfWhatIsBeforeTheModel) {
+  const auto objective = pictures_.objective(0.002);
+  Observation first = later({0}, pictures_.state());
+  first.frame = 0;
+  objective->prepare(first);
+  Observation hidden = later({0}, pictures_.state());
+  hidden.views[0].depth(cv::Rect(0, 0, 80, 160)).setTo(0.3);
+  objective->prepare(hidden);
+  EXPECT_LT(corner_distance_mm(objective->refined_start(), pictures_.state()), 0.8);
+}
+
+TEST_F(ContourTest, MissesDepthWhereItIsAskedForIt) {
+  const auto objective = pictures_.objective(0.002);
+  Observation seen = pictures_.seen(pictures_.state(), pictures_.state());
+  seen.views[0].depth.release();
+  objective->prepare(seen);  // one view is enough
+  seen.views[1].depth.release();
+  EXPECT_THAT(test::message_of<DataError>([&] { objective->prepare(seen); }),
+              testing::AllOf(HasSubstr("none with depth"), HasSubstr("leave depth_sigma_mm out")));
+}
+
 TEST_F(ContourTest, FollowsABoxThatIsHalfHiddenByOtherColours) {
   const auto objective = pictures_.objective();
   teach(*objective);

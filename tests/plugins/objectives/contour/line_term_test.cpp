@@ -28,6 +28,23 @@ TEST(LineTerm, JacobianIsThatOfTheResiduals) {
   }
 }
 
+TEST(DepthTerm, JacobianIsThatOfTheResiduals) {
+  BoxPictures& pictures = box_pictures();
+  const auto lines = pictures.objective(), objective = pictures.objective(0.002);
+  const Observation seen = pictures.seen(pictures.state(), pictures.state());
+  lines->prepare(seen);
+  objective->prepare(seen);
+  ASSERT_GT(objective->residual_count(), lines->residual_count() + 200);
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd state = test::random_state(pictures.scene(), random);
+    contract::check_jacobian(*objective, pictures.scene(), hypothesis(state), "anywhere");
+    const double squares =
+        test::sum_of_squares(test::written_residuals(*objective, hypothesis(state)));
+    EXPECT_NEAR(squares, objective->cost(hypothesis(state)), 1e-4 * squares);
+  }
+}
+
 TEST(LineTerm, CostIsTheSumOfSquares) {
   BoxPictures& pictures = box_pictures();
   const auto objective = pictures.objective();

@@ -1,4 +1,4 @@
-// Outlines: the sphere of views, tracing, drawing.
+// Outlines and surfaces: the sphere of views, tracing, drawing, points.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,6 +6,7 @@
 
 #include "contour_views.hpp"
 #include "model_contours.hpp"
+#include "surface_points.hpp"
 #include "test_models.hpp"
 #include "trace_contour.hpp"
 
@@ -136,6 +137,28 @@ TEST(DrawnOutline, OfABallIsWhereItsTangentsAre) {
 TEST(DrawnOutline, IsOfRigidModelsOnly) {
   EXPECT_TRUE(is_rigid(Model(test::make_test_box())));
   EXPECT_FALSE(is_rigid(Model(test::make_test_hand())));
+}
+
+TEST(SurfacePoints, AreEvenlySpreadAndPointOutwards) {
+  const ModelData box = test::make_test_box();  // 60 x 40 x 120 mm
+  const std::vector<SurfacePoint> points = spread_points(box.mesh, 2000);
+  ASSERT_EQ(points.size(), 2000u);
+  Eigen::Vector3i on_axis(0, 0, 0);
+  Eigen::Vector3f mean(0, 0, 0);
+  for (const SurfacePoint& point : points) {
+    Eigen::Index axis = 0;
+    EXPECT_NEAR(point.normal.cwiseAbs().maxCoeff(&axis), 1, 1e-5);
+    ++on_axis[axis];
+    mean += point.position / 2000;
+    const float half = axis == 0 ? 0.03f : axis == 1 ? 0.02f : 0.06f;
+    EXPECT_NEAR(point.position[axis], half * point.normal[axis], 1e-5);
+    EXPECT_TRUE((point.position.array().abs() <= Eigen::Array3f(0.0301f, 0.0201f, 0.0601f)).all());
+  }
+  const double all = 2 * (40 * 120 + 60 * 120 + 60 * 40);
+  EXPECT_NEAR(on_axis[0], 2000 * 2 * 40 * 120 / all, 20);
+  EXPECT_NEAR(on_axis[1], 2000 * 2 * 60 * 120 / all, 20);
+  EXPECT_NEAR(on_axis[2], 2000 * 2 * 60 * 40 / all, 20);
+  EXPECT_LT(mean.norm(), 0.001);
 }
 
 }  // namespace

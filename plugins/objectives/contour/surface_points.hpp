@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "hypotrack/model.hpp"
+
+namespace hypotrack::contour {
+
+/// A point on a model's surface with its unit normal, outwards. In the model's frame.
+struct SurfacePoint {
+  Eigen::Vector3f position;
+  Eigen::Vector3f normal;
+};
+
+/// Returns `count` points spread evenly over a mesh's surface; equal meshes give equal points.
+std::vector<SurfacePoint> spread_points(const Mesh& mesh, int count);
+
+}  // namespace hypotrack::contour
