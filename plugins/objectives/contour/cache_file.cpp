@@ -19,7 +19,7 @@
 namespace hypotrack::contour {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;  // of the bytes and of how outlines are traced
+constexpr std::uint32_t kVersion = 2;  // of the bytes and of how outlines are traced
 constexpr char kMagic[16] = "hypotrack lines";
 
 struct Header {
@@ -30,7 +30,7 @@ struct Header {
   float centre[3];
   std::uint32_t unused;
   std::uint64_t hash;      ///< of mesh and settings
-  std::uint64_t checksum;  ///< of all bytes behind the header
+  std::uint64_t checksum;  ///< of the centre and all bytes behind the header
 };
 static_assert(std::is_trivially_copyable_v<Header> && sizeof(Header) == 64);
 static_assert(sizeof(ContourPoint) == 14 * sizeof(float));
@@ -83,8 +83,9 @@ std::filesystem::path default_folder() {
   return cache.empty() ? cache : cache / "hypotrack" / "contours";
 }
 
-std::uint64_t checksum(std::string_view body) {
+std::uint64_t checksum(const Header& header, std::string_view body) {
   Hash hash;
+  hash.add(std::span<const float>(header.centre));
   hash.add(body);
   return hash.value();
 }
@@ -127,7 +128,7 @@ std::optional<ContourViews> CacheFile::read(std::string& problem) const {
   const std::uint64_t indices = std::uint64_t{header.views} + 1;
   if (header.views != directions.cols() || header.points > body.size() ||
       body.size() != indices * sizeof(std::uint32_t) + header.points * sizeof(ContourPoint) ||
-      header.checksum != checksum(body))
+      header.checksum != checksum(header, body))
     return refuse("is damaged");
   auto first = take<std::uint32_t>(body, indices);
   if (!std::ranges::is_sorted(first) || first.front() != 0 || first.back() != header.points)
@@ -150,7 +151,7 @@ std::string CacheFile::write(const ContourViews& views) const {
   header.points = views.points().size();
   Eigen::Vector3f::Map(header.centre) = views.centre();
   header.hash = hash_;
-  header.checksum = checksum(body);
+  header.checksum = checksum(header, body);
   std::error_code error;
   std::filesystem::create_directories(path_.parent_path(), error);
   std::filesystem::path own = path_;

@@ -94,14 +94,40 @@ void Contour::learn_from(const Eigen::VectorXd& state, const std::vector<TileVie
       if (views[i].color.empty()) continue;
       const Eigen::Isometry3f camera_from_model =
           (views[i].camera.camera_from_world * pose).cast<float>();
+      TileView view = views[i];
+      if (const cv::Mat1b covered = hidden(model, state, view.camera); !covered.empty()) {
+        view.valid = view.valid.clone();
+        view.valid.setTo(0, covered);
+      }
       const double shown = count_colors(model.contours.seen_by(camera_from_model),
-                                        camera_from_model, views[i], model.colors[i]);
+                                        camera_from_model, view, model.colors[i]);
       if (shown < kLeastShown)
         model.colors[i].discard();
       else
         model.colors[i].learn(weight);
     }
   }
+}
+
+cv::Mat1b Contour::hidden(const RigidModel& model, const Eigen::VectorXd& state,
+                          const TileCamera& camera) const {
+  const auto placed = [&](const RigidModel& any) {
+    return Eigen::Isometry3f((camera.camera_from_world * pose_of(state, any.offset)).cast<float>());
+  };
+  const auto distance = [&](const RigidModel& any) {
+    return (placed(any) * any.contours.centre()).z();
+  };
+  cv::Mat1b out;
+  for (const RigidModel& other : models_) {
+    if (&other == &model || distance(other) >= distance(model)) continue;
+    const Eigen::Isometry3f pose = placed(other);
+    const cv::Mat1b covered = covered_by(other.contours.seen_by(pose), pose, camera);
+    if (out.empty())
+      out = covered;
+    else
+      out |= covered;
+  }
+  return out;
 }
 
 void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
@@ -111,8 +137,9 @@ void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
     cv::Mat with_alpha, color;
     cv::cvtColor(views[i].color, with_alpha, cv::COLOR_BGR2BGRA);
     with_alpha.convertTo(color, CV_32F);
-    regions.push_back(
-        {&views[i].camera, color, model.colors[i].log_odds(views[i].color, views[i].valid)});
+    regions.push_back({&views[i].camera, color,
+                       model.colors[i].log_odds(views[i].color, views[i].valid),
+                       hidden(model, refined_, views[i].camera)});
   }
   DepthViews depth{.points = model.surface, .views = {}, .sigma = params_.depth_sigma};
   for (const TileView& view : views)

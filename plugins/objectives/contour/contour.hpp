@@ -31,7 +31,7 @@ namespace hypotrack::contour {
 /// (depth_term.hpp).
 ///
 /// Colours are learned along the outlines of the start, and then of every answer. Models with
-/// joints cost nothing. Of two models, the one behind takes the other for background.
+/// joints cost nothing. Lines of a model that another one hides are left out.
 class Contour : public Objective, public ResidualTerm, public RefinesStart {
  public:
   using Params = contour::Params;
@@ -76,6 +76,9 @@ class Contour : public Objective, public ResidualTerm, public RefinesStart {
   void learn(const Observation& observation);
   /// Learns from the outlines of a state. Nothing is learned of a model that is hardly in the tile.
   void learn_from(const Eigen::VectorXd& state, const std::vector<TileView>& views, double weight);
+  /// Returns where in a view other models of a state are nearer than one; empty: nowhere.
+  cv::Mat1b hidden(const RigidModel& model, const Eigen::VectorXd& state,
+                   const TileCamera& camera) const;
   /// Fits a model to the views and adds its lines.
   void fit(const RigidModel& model, const std::vector<TileView>& views);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "hypotrack/pixel.hpp"
 #include "line_distribution.hpp"
@@ -93,11 +94,27 @@ std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline
     const int x = static_cast<int>(std::floor(here->pixel.x() + 0.5f));
     const int y = static_cast<int>(std::floor(here->pixel.y() + 0.5f));
     if (x < 0 || y < 0 || x >= view.color.cols || y >= view.color.rows) continue;
+    if (!view.hidden.empty() && view.hidden(y, x) != 0) continue;
     const std::optional<Place> place = place_of(*here, view, scale);
     if (!place) continue;
     out.push_back({point.position, here->pixel, here->normal, place->mean * pixels,
                    place->variance * pixels * pixels});
   }
+  return out;
+}
+
+cv::Mat1b covered_by(std::span<const ContourPoint> outline,
+                     const Eigen::Isometry3f& camera_from_model, const TileCamera& camera) {
+  std::vector<cv::Point> places, hull;
+  for (const ContourPoint& point : outline)
+    if (const std::optional<SeenPoint> here = seen(point, camera_from_model, camera))
+      places.emplace_back(cvRound(here->pixel.x()), cvRound(here->pixel.y()));
+  cv::Mat1b out(camera.height, camera.width, uchar{0});
+  if (places.empty()) return out;
+  cv::convexHull(places, hull);
+  cv::fillConvexPoly(out, hull, 255);
+  constexpr int kAround = 7;  // pixels: colours of the edge are mixtures
+  cv::dilate(out, out, cv::Mat1b::ones(kAround, kAround));
   return out;
 }
 

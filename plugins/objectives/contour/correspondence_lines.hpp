@@ -30,6 +30,7 @@ struct RegionView {
   const TileCamera* camera;
   cv::Mat4f color;  ///< blue, green and red, 0 to 255
   cv::Mat1f log_odds;
+  cv::Mat1b hidden = {};  ///< not 0 where another model is before this one; empty: nowhere
 };
 
 /// A straight line of pixels across the outline, with the distribution of where along it the
@@ -47,10 +48,15 @@ struct CorrespondenceLine {
 /// world", IJCV 2022, section 3): pixels are independent, `scale` of them in a row make a segment,
 /// and a smoothed step says how the probability of the model falls across the outline. Lines of
 /// one-pixel segments are refined (refine_place()). Lines across
-/// thin parts are left out, and those where unknown colours hide the model.
+/// thin parts are left out, and those where another model or unknown colours hide the model.
 std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline,
                                            const Eigen::Isometry3f& camera_from_model,
                                            const RegionView& view, int scale);
+
+/// Returns a mask of a view's pixels within the convex hull of a model's outline, and three pixels
+/// around it.
+cv::Mat1b covered_by(std::span<const ContourPoint> outline,
+                     const Eigen::Isometry3f& camera_from_model, const TileCamera& camera);
 
 /// Counts the colours on both sides of a model's outline in a view. Returns the share of the
 /// outline that lies in the picture.

@@ -12,6 +12,19 @@ namespace {
 /// irrational).
 double even(int i, double step) { return std::fmod(0.5 + i * step, 1.0); }
 
+/// Returns six times the volume within a mesh; negative if its triangles face inwards. Openings are
+/// closed from the middle.
+double volume(const Mesh& mesh) {
+  const Eigen::Vector3f middle = mesh.vertices.rowwise().mean();
+  double sum = 0;
+  for (const Eigen::Vector3i corner : mesh.triangles.colwise()) {
+    const Eigen::Vector3f a = mesh.vertices.col(corner[0]) - middle;
+    const Eigen::Vector3f b = mesh.vertices.col(corner[1]) - middle;
+    sum += double{a.dot(b.cross(mesh.vertices.col(corner[2]) - middle))};
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<SurfacePoint> spread_points(const Mesh& mesh, int count) {
@@ -28,6 +41,8 @@ std::vector<SurfacePoint> spread_points(const Mesh& mesh, int count) {
   }
   std::vector<SurfacePoint> out;
   if (!(sum > 0)) return out;
+  if (volume(mesh) < 0)
+    for (Eigen::Vector3f& normal : normals) normal = -normal;
   for (int i = 0; i < count; ++i) {
     const double at = (i + 0.5) / count * sum;
     const auto t = static_cast<Eigen::Index>(std::ranges::lower_bound(areas, at) - areas.begin());

@@ -14,6 +14,7 @@ struct SurfacePoint {
 };
 
 /// Returns `count` points spread evenly over a mesh's surface; equal meshes give equal points.
+/// Normals point outwards, also where all triangles face inwards.
 std::vector<SurfacePoint> spread_points(const Mesh& mesh, int count);
 
 }  // namespace hypotrack::contour

@@ -38,6 +38,7 @@ float length(const cv::Mat1b& mask, Eigen::Vector2f from, const Eigen::Vector2f&
 /// corner.
 std::optional<Piece> piece(const cv::Mat1b& mask, const std::vector<cv::Point>& chain, int i) {
   const int size = static_cast<int>(chain.size());
+  if (size <= 2 * kReach) return std::nullopt;  // a speck or a pinhole
   const auto at = [&](int k) { return vector(chain[static_cast<std::size_t>((k + size) % size)]); };
   const Eigen::Vector2f along = at(i + kReach) - at(i - kReach);
   if (!(along.norm() > kReach)) return std::nullopt;

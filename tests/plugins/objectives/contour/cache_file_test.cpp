@@ -114,6 +114,8 @@ TEST_F(ContourCache, RefusesBrokenFiles) {
               HasSubstr("is damaged"));
   EXPECT_THAT(problem_after([](std::string& bytes) { bytes[0] = 'H'; }),
               HasSubstr("is no file of outlines"));
+  // The centre of the views, in the header.
+  EXPECT_THAT(problem_after([](std::string& bytes) { bytes[33] ^= 1; }), HasSubstr("is damaged"));
   // Counts that would ask for more memory than there is.
   EXPECT_THAT(problem_after([](std::string& bytes) { bytes.replace(24, 8, 8, '\xff'); }),
               HasSubstr("is damaged"));
@@ -121,7 +123,7 @@ TEST_F(ContourCache, RefusesBrokenFiles) {
 
 TEST_F(ContourCache, RefusesAnotherVersionAndNamesBoth) {
   EXPECT_THAT(problem_after([](std::string& bytes) { bytes[16] = 77; }),
-              HasSubstr("has version 77, expected 1"));
+              HasSubstr("has version 77, expected 2"));
 }
 
 TEST_F(ContourCache, SurvivesProgramsThatWriteAtOnce) {

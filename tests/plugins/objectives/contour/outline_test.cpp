@@ -97,6 +97,14 @@ TEST(TracedOutline, OfNothingIsEmpty) {
   EXPECT_TRUE(trace_contour(cv::Mat1f(50, 50, 0.0f), 100).empty());
 }
 
+TEST(TracedOutline, LeavesOutSpecks) {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(2, 1), cv::Size(2, 2)}) {
+    cv::Mat1f depth(50, 50, 0.0f);
+    depth(cv::Rect(cv::Point(20, 20), size)) = 0.5f;
+    EXPECT_TRUE(trace_contour(depth, 100).empty()) << size;
+  }
+}
+
 TEST(DrawnOutline, OfABoxLiesOnItsEdgesAndKnowsTheirSides) {
   const Eigen::Vector3f half(0.03f, 0.02f, 0.06f);
   const ContourViews views =
@@ -159,6 +167,13 @@ TEST(SurfacePoints, AreEvenlySpreadAndPointOutwards) {
   EXPECT_NEAR(on_axis[1], 2000 * 2 * 60 * 120 / all, 20);
   EXPECT_NEAR(on_axis[2], 2000 * 2 * 60 * 40 / all, 20);
   EXPECT_LT(mean.norm(), 0.001);
+}
+
+TEST(SurfacePoints, PointOutwardsWhereTrianglesFaceInwards) {
+  Mesh inverted = test::make_test_box().mesh;
+  inverted.triangles.row(0).swap(inverted.triangles.row(1));
+  for (const SurfacePoint& point : spread_points(inverted, 100))
+    EXPECT_GT(point.position.dot(point.normal), 0);
 }
 
 }  // namespace
