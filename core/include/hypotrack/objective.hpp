@@ -115,8 +115,8 @@ class HYPOTRACK_API Objective {
   Objective(const Objective&) = delete;
   Objective& operator=(const Objective&) = delete;
 
-  /// Returns false for a term that reads only the state (joint limits, priors) and needs no
-  /// rendering.
+  /// Returns false for a term that needs no rendering. One that reads pictures even so overrides
+  /// image_use(); others are taken for terms of the state alone (joint limits, priors).
   virtual bool needs_rendering() const { return true; }
 
   /// Returns the images that `prepare` reads. An image that no objective of the scene reads may be

@@ -13,9 +13,21 @@ Requirements requirements_of(const TrackerParts& parts) {
   return all;
 }
 
+namespace {
+
+/// Returns whether a term reads pictures. One of the state alone need not override image_use(), so
+/// that its default does not count.
+bool reads_pictures(const Objective& objective) {
+  if (objective.needs_rendering()) return true;
+  const ImageUse use = objective.image_use();
+  return (use.color || use.depth) && !(use.color && use.mask && use.depth);
+}
+
+}  // namespace
+
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms) {
   return std::ranges::any_of(terms, [](const ObjectiveTerm& term) {
-    return term.weight != 0 && term.objective->needs_rendering();
+    return term.weight != 0 && reads_pictures(*term.objective);
   });
 }
 
