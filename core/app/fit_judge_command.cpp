@@ -107,7 +107,7 @@ int fit_judge(const FitJudgeOptions& options, const CommonOptions& common) {
     throw ConfigError(fmt::format("--wrong-mm is {:g}, less than --right-mm, which is {:g}",
                                   options.wrong_mm, options.right_mm));
   expect_writable(options.out);
-  if (options.table) expect_writable(*options.table);
+  if (options.table) expect_writable(*options.table, "--table");
   PluginLoader plugins(common.plugin_path);
   const ConfigNode node = ConfigNode::parse("{type: " + options.judge + "}", "--judge");
   const std::unique_ptr<Judge> judge = plugins.make<Judge>(node);

@@ -56,6 +56,10 @@ class Collection {
     if (cameras_.size() < 2)
       throw DataError(
           fmt::format("{}: its source has one view; judges compare two", sequence.scene.string()));
+    if (!session_.parts.judge)
+      throw ConfigError(fmt::format(
+          "{}: found `judge: none`, expected a judge, whom recoveries ask; add --set judge=network",
+          sequence.scene.string()));
     for (std::size_t m = 0; m < scene_.items().size(); ++m) {
       verifiers_.emplace_back(scene_, m, cameras_);
       fresh_.emplace_back(scene_, m, cameras_);

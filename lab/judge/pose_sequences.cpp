@@ -16,6 +16,8 @@ std::vector<std::string> drawn_pictures(const ConfigNode& source, int number) {
   const auto draw = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);
   };
+  const ConfigNode cameras = source.get("cameras").get("count");
+  const bool pair = !(cameras.is_scalar() && cameras.scalar() == "1");
   const auto one_of = [&](std::initializer_list<double> values) {
     return values.begin()[random() % values.size()];
   };
@@ -28,8 +30,9 @@ std::vector<std::string> drawn_pictures(const ConfigNode& source, int number) {
       "0.8]}}",
       draw(0.4, 0.9), draw(0, 0.6), one_of({0, 0.05, 0.12}), draw(-1, 1), draw(0, 1)));
   out.push_back(
-      fmt::format("source.sensor={{noise_sigma: {}, blur_px: {}, gain: [1, {:.3f}], seed: {}}}",
-                  one_of({1, 2, 3, 4}), one_of({0, 0, 0.8, 1.5}), draw(0.88, 1.12), number + 1));
+      fmt::format("source.sensor={{noise_sigma: {}, blur_px: {}, gain: [{}{:.3f}], seed: {}}}",
+                  one_of({1, 2, 3, 4}), one_of({0, 0, 0.8, 1.5}), pair ? "1, " : "",
+                  draw(0.88, 1.12), number + 1));
   return out;
 }
 
@@ -44,8 +47,9 @@ std::vector<PoseSequence> plan_pose_sequences(std::span<const std::filesystem::p
     PoseSequence one{scene, {}, frames, number};
     const ConfigNode source = ConfigNode::load_scene(scene, overrides).get("source");
     const ConfigNode type = source.get("type");
-    if (type.is_scalar() && type.scalar() == "synthetic")
-      one.overrides = drawn_pictures(source, number);
+    const bool rendered = type.is_scalar() && type.scalar() == "synthetic";
+    if (!rendered && number >= std::ssize(scenes)) continue;  // a recording would repeat itself
+    if (rendered) one.overrides = drawn_pictures(source, number);
     one.overrides.insert(one.overrides.end(), overrides.begin(), overrides.end());
     out.push_back(std::move(one));
   }

@@ -13,7 +13,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Plans sequences of scenes in turn. Those that are rendered (`type: synthetic`) differ in motion
 /// (where the source is `random`), light, noise, blur, gain and background, by their numbers.
-/// `overrides` change all scenes, and win.
+/// Others give one sequence each. `overrides` change all scenes, and win.
 std::vector<PoseSequence> plan_pose_sequences(std::span<const std::filesystem::path> scenes,
                                               const std::vector<std::string>& overrides, int count,
                                               int frames);

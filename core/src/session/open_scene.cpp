@@ -216,6 +216,12 @@ void Opening::judge() {
   YamlDocument record;
   std::unique_ptr<Judge> judge = make<Judge>(node, record);
   judge->set_label(detail::plugin_label(kPluginKind<Judge>, node, judge.get()));
+  const JudgeThresholds& t = judge->thresholds();
+  if (t.uncertain_above > t.tracked_above)
+    throw ConfigError(fmt::format(
+        "{}: judge: uncertain_above is {}, more than tracked_above, which is {}; models below the "
+        "first are lost",
+        node.where(), t.uncertain_above, t.tracked_above));
   session_.parts.judge = std::move(judge);
   record_.set("judge", record);
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "hypotrack/config.hpp"
@@ -58,12 +59,19 @@ std::vector<Measures::Index> inputs_of(const ConfigNode& root, const NetworkWeig
 
 void check_sizes(const ConfigNode& network, const Network& read, std::size_t measures) {
   const ConfigNode units = network.get("units");
+  if (measures == 0) fail_at(network, "has no measures, expected one or more in `measures`");
   if (read.units.empty()) fail_at(network, "has no units, expected one or more");
-  for (std::size_t i = 0; i < read.units.size(); ++i)
-    if (read.units[i].in.size() != 2 * measures)
+  if (!std::isfinite(read.bias)) fail_at(network.get("bias"), "expected a finite number");
+  for (std::size_t i = 0; i < read.units.size(); ++i) {
+    const NetworkUnit& unit = read.units[i];
+    if (!std::isfinite(unit.bias) || !std::isfinite(unit.out) ||
+        !std::ranges::all_of(unit.in, [](double weight) { return std::isfinite(weight); }))
+      fail_at(units.at(i), "has a number that is not finite");
+    if (unit.in.size() != 2 * measures)
       fail_at(units.at(i).get("in"),
               fmt::format("has {} weights, expected {}: two for each of {} measures",
-                          read.units[i].in.size(), 2 * measures, measures));
+                          unit.in.size(), 2 * measures, measures));
+  }
 }
 
 }  // namespace

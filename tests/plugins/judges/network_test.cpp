@@ -125,6 +125,11 @@ TEST_F(WeightsFile, WithTooFewWeightsNamesTheUnit) {
                     HasSubstr("expected 36: two for each of 18 measures")));
 }
 
+TEST_F(WeightsFile, WithANumberThatIsNotFiniteIsRefused) {
+  EXPECT_THAT(message_of_damage("in: [0.2576, ", "in: [.inf, "),
+              AllOf(HasSubstr("weights.yaml:16:"), HasSubstr("finite")));
+}
+
 TEST_F(WeightsFile, WithAMisspeltMeasureNamesTheNearest) {
   EXPECT_THAT(message_of_damage("[correlation", "[corelation"),
               AllOf(HasSubstr("measures.0: there is no measure 'corelation'"),

@@ -53,6 +53,13 @@ TEST_F(FitJudgeTest, ASequenceThatIsTooShortIsRefused) {
                                  HasSubstr("give more frames or sequences")));
 }
 
+TEST_F(FitJudgeTest, ASceneWithoutAJudgeIsRefused) {
+  const Outcome outcome = fit({"--set", "judge=none", "--sequences", "1", "--frames", "2"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("found `judge: none`"), HasSubstr("--set judge=network")));
+}
+
 TEST_F(FitJudgeTest, AJudgeWithNothingToFitIsRefusedBeforeAnyFrame) {
   const Outcome outcome = fit({"--judge", "agreement"});
   EXPECT_EQ(outcome.exit_code, 1);

@@ -39,6 +39,11 @@ TEST_F(JudgeTest, AnUnknownOneIsRefusedWithThoseThatThereAre) {
   expect_refused(box_scene() + "judge: {tracked_above: 0.5}\n", {"judge.type", "is missing"});
 }
 
+TEST_F(JudgeTest, ThresholdsOutOfOrderAreRefused) {
+  expect_refused(box_scene() + "judge: {type: network, tracked_above: 0.2, uncertain_above: 0.9}\n",
+                 {"scene.yaml:13:", "uncertain_above is 0.9, more than tracked_above"});
+}
+
 TEST_F(JudgeTest, TheFormerKeyForNoneWorksWithANote) {
   const Outcome former = run(box_scene() + "tracker: {evidence: false}\n");
   EXPECT_EQ(former.exit_code, 0);
