@@ -24,10 +24,10 @@ struct PoseSequence {
 /// Called after each frame; returns whether to go on.
 using PoseProgress = std::function<bool(int frame)>;
 
-/// Collects poses of a scene's models with their measures: those that its tracker finds, the true
-/// ones, poses displaced by up to 200 mm, and poses that recoveries find without knowledge of where
-/// the models are. Measures are taken twice, before and after the looks of the models were learned.
-/// Throws DataError if the source has no ground truth or less than two views.
+/// Collects poses of a scene's models with their measures. The tracker finds some of them, and
+/// recoveries others, without knowledge of where the models are. The rest are the true poses, and
+/// those displaced by up to 200 mm. Measures are taken twice, before and after the looks of the
+/// models were learned. Throws DataError if the source has no ground truth or less than two views.
 std::vector<KnownPose> collect_known_poses(const PoseSequence& sequence, PluginLoader& plugins,
                                            const PoseProgress& progress = {});
 

@@ -19,10 +19,10 @@
 
 namespace hypotrack::contour {
 
-/// Pulls the outlines of rigid models to where the colours of the picture change, in every view by
-/// itself: one camera is enough. prepare() first fits the models to the frame by themselves
+/// Pulls the outlines of rigid models to where the colours of the picture change. Each view counts
+/// by itself, so that one camera is enough. prepare() first fits the models to the frame
 /// (fit_region()), which gives refined_start(). Lines of one-pixel segments across the outlines of
-/// that pose then make the residuals: the cost is
+/// that pose then make the residuals. The cost is the
 ///
 ///   mean over views, sum over models and lines, of (d / sigma)^2 / (1 + (d / reach)^2),
 ///

@@ -22,9 +22,9 @@ struct DepthViews {
   double sigma = 1;  ///< of measured depth, metres
 };
 
-/// Moves a model to where the correspondence lines and the depth of all views say, from coarse to
-/// fine segments: Gauss-Newton steps on the lines' means and variances, with a prior on each step
-/// (SRT3D, sections 3.4 and 3.5). Returns the pose it was given where too little is seen.
+/// Fits a model's pose to the correspondence lines and the depth of all views, from coarse to fine
+/// segments. Each Gauss-Newton step uses the lines' means and variances, and has a prior (SRT3D,
+/// sections 3.4 and 3.5). Returns the pose it was given where too little is seen.
 Eigen::Isometry3d fit_region(const ContourViews& model, Eigen::Isometry3d world_from_model,
                              const std::vector<RegionView>& views, const DepthViews& depth);
 
