@@ -74,7 +74,7 @@ struct HandDetector::Impl {
   std::vector<HandDetection> detect_small(const hands::HandPicture& picture,
                                           std::span<const cv::Rect> tiles) const;
   std::optional<HandDetection> look(const cv::Mat& picture, const HandPoints& guess,
-                                    const Rounds& rounds) const;
+                                    const Rounds& rounds, int threads) const;
 
   Options options;
   hands::PalmDetector palms;
@@ -133,11 +133,12 @@ std::vector<HandDetection> HandDetector::Impl::detect_small(const hands::HandPic
 }
 
 std::optional<HandDetection> HandDetector::Impl::look(const cv::Mat& picture,
-                                                      const HandPoints& guess,
-                                                      const Rounds& rounds) const {
+                                                      const HandPoints& guess, const Rounds& rounds,
+                                                      int threads) const {
   const hands::HandPicture color = hands::hand_picture(picture);
   if (!guess.allFinite()) return std::nullopt;
-  HandDetection hand = landmarker.find(color, hands::region_of(hands::landmarks_at(guess)), rounds);
+  HandDetection hand =
+      landmarker.find(color, hands::region_of(hands::landmarks_at(guess)), rounds, threads);
   if (!(hand.presence > options.presence)) return std::nullopt;
   move_to_joints(hand);
   return hand;
@@ -160,14 +161,14 @@ std::vector<HandDetection> HandDetector::glance(const cv::Mat& picture, int turn
   return found;
 }
 
-std::optional<HandDetection> HandDetector::refine(const cv::Mat& picture,
-                                                  const HandPoints& guess) const {
-  return impl_->look(picture, guess, kRounds);
+std::optional<HandDetection> HandDetector::refine(const cv::Mat& picture, const HandPoints& guess,
+                                                  int threads) const {
+  return impl_->look(picture, guess, kRounds, threads);
 }
 
-std::optional<HandDetection> HandDetector::follow(const cv::Mat& picture,
-                                                  const HandPoints& guess) const {
-  return impl_->look(picture, guess, kFollowingRounds);
+std::optional<HandDetection> HandDetector::follow(const cv::Mat& picture, const HandPoints& guess,
+                                                  int threads) const {
+  return impl_->look(picture, guess, kFollowingRounds, threads);
 }
 
 std::filesystem::path HandDetector::default_folder() {

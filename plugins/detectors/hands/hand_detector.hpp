@@ -44,11 +44,13 @@ class HandDetector {
 
   /// Returns the hand at about these landmarks, such as projected ones; nothing if there is none or
   /// a landmark is NaN. Takes a fraction of the time of detect().
-  std::optional<HandDetection> refine(const cv::Mat& picture, const HandPoints& guess) const;
+  std::optional<HandDetection> refine(const cv::Mat& picture, const HandPoints& guess,
+                                      int threads = 1) const;
 
   /// Returns the hand at about the landmarks that it had in the last frame, moved to where it is
   /// expected. Runs the network once, and again only if the hand is elsewhere.
-  std::optional<HandDetection> follow(const cv::Mat& picture, const HandPoints& guess) const;
+  std::optional<HandDetection> follow(const cv::Mat& picture, const HandPoints& guess,
+                                      int threads = 1) const;
 
   /// Returns the folder in HYPOTRACK_HAND_DETECTOR, else hypotrack/hand_detector in XDG_DATA_HOME,
   /// else the same in ~/.local/share. Throws DataError if none of these variables nor HOME is set.

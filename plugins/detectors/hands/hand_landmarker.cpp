@@ -33,12 +33,12 @@ HandLandmarker::HandLandmarker(const std::filesystem::path& file)
                 {"right", 1},
                 {"relative", kPointNumbers}}) {}
 
-HandDetection HandLandmarker::find(const HandPicture& picture, Region region,
-                                   const Rounds& rounds) const {
+HandDetection HandLandmarker::find(const HandPicture& picture, Region region, const Rounds& rounds,
+                                   int threads) const {
   HandDetection out;
   for (int i = 0; i < rounds.most; ++i) {
     if (!usable(region)) return {};
-    out = find_once(picture, region);
+    out = find_once(picture, region, threads);
     const Region next = region_of(out.landmarks);
     if (out.presence < kNothing || nearly_equal(region, next, rounds.share)) break;
     region = next;
@@ -46,9 +46,10 @@ HandDetection HandLandmarker::find(const HandPicture& picture, Region region,
   return out;
 }
 
-HandDetection HandLandmarker::find_once(const HandPicture& picture, const Region& region) const {
+HandDetection HandLandmarker::find_once(const HandPicture& picture, const Region& region,
+                                        int threads) const {
   const auto outputs = network_.run(
-      [&](std::span<float> input) { write_region(picture, region, kHandSide, input); });
+      [&](std::span<float> input) { write_region(picture, region, kHandSide, input); }, threads);
   const Eigen::Matrix2d rotation = rotation_of(region);
   const Eigen::Matrix2Xd in_cut = points_of(outputs[0]).topRows<2>();
   HandDetection out;

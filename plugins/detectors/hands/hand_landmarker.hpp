@@ -23,10 +23,11 @@ class HandLandmarker {
   };
 
   /// Returns the hand of a region of a picture; its palm's score is 1.
-  HandDetection find(const HandPicture& picture, Region region, const Rounds& rounds) const;
+  HandDetection find(const HandPicture& picture, Region region, const Rounds& rounds,
+                     int threads = 1) const;
 
  private:
-  HandDetection find_once(const HandPicture& picture, const Region& region) const;
+  HandDetection find_once(const HandPicture& picture, const Region& region, int threads) const;
 
   Network network_;
 };

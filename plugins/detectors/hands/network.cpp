@@ -9,7 +9,7 @@
 #include "hypotrack/stop.hpp"
 #include "network_file.hpp"
 #include "network_plan.hpp"
-#include "one_thread.hpp"
+#include "omp_threads.hpp"
 
 namespace hypotrack::hands {
 
@@ -100,39 +100,57 @@ FileState state_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-/// A network of a file, and the contexts that no thread uses at the moment.
+/// A network of a file, its plans and the contexts that no thread uses at the moment.
 struct Network::Shared {
   explicit Shared(const std::filesystem::path& from) : file(from), graph(read_network(from)) {
-    try {
-      plan = plan_network(graph);
-    } catch (const dnnl::error& error) {
-      fail_damaged(file, error.what());
-    }
-    graph.weights = {};  // the plan has them in the order of the primitives
+    add_team(graph, 1);
+    graph.weights = {};  // the plans have them in the order of the primitives
   }
 
-  std::unique_ptr<Context> take() {
+  /// A plan for a number of threads.
+  struct Team {
+    NetworkPlan plan;
+    std::vector<std::unique_ptr<Context>> idle;  // as many as ran it at the same time
+  };
+
+  /// Returns the plan for a number of threads. The first call for each reads the weights again.
+  Team& team(int threads) {
+    const std::lock_guard lock(mutex);
+    const auto known = teams.find(threads);
+    return known != teams.end() ? known->second : add_team(read_network(file), threads);
+  }
+
+  std::unique_ptr<Context> take(Team& team) {
     {
       const std::lock_guard lock(mutex);
-      if (!idle.empty()) {
-        std::unique_ptr<Context> out = std::move(idle.back());
-        idle.pop_back();
+      if (!team.idle.empty()) {
+        std::unique_ptr<Context> out = std::move(team.idle.back());
+        team.idle.pop_back();
         return out;
       }
     }
-    return std::make_unique<Context>(plan);
+    return std::make_unique<Context>(team.plan);
   }
 
-  void give_back(std::unique_ptr<Context> context) {
+  void give_back(Team& team, std::unique_ptr<Context> context) {
     const std::lock_guard lock(mutex);
-    idle.push_back(std::move(context));
+    team.idle.push_back(std::move(context));
   }
 
   std::filesystem::path file;
-  NetworkGraph graph;
-  NetworkPlan plan;
+  NetworkGraph graph;  ///< without weights
+
+ private:
+  Team& add_team(const NetworkGraph& weighted, int threads) {
+    try {
+      return teams.emplace(threads, Team{plan_network(weighted, threads), {}}).first->second;
+    } catch (const dnnl::error& error) {
+      fail_damaged(file, error.what());
+    }
+  }
+
   std::mutex mutex;
-  std::vector<std::unique_ptr<Context>> idle;  // as many as threads that ran it at the same time
+  std::map<int, Team> teams;  // by threads
 };
 
 std::shared_ptr<Network::Shared> Network::shared(const std::filesystem::path& file) {
@@ -164,14 +182,15 @@ Network::Network(const std::filesystem::path& file, int side,
     fail_damaged(file, "it takes pictures of another size");
 }
 
-std::vector<std::vector<float>> Network::run(const WritePicture& write) const {
+std::vector<std::vector<float>> Network::run(const WritePicture& write, int threads) const {
   check_stop();
+  Shared::Team& team = shared_->team(threads);
   try {
-    const OneThread one_thread;
-    std::unique_ptr<Context> context = shared_->take();
+    const OmpThreads own_threads(threads);
+    std::unique_ptr<Context> context = shared_->take(team);
     context->run(write);
     std::vector<std::vector<float>> out = context->outputs();
-    shared_->give_back(std::move(context));
+    shared_->give_back(team, std::move(context));
     return out;
   } catch (const dnnl::error& error) {
     fail_damaged(shared_->file, error.what());

@@ -15,7 +15,7 @@ struct ExpectedOutput {
   std::size_t size;
 };
 
-/// A network of a file, run on the CPU by one thread. Several threads may run it at the same time.
+/// A network of a file, run on the CPU. Several threads may run it at the same time.
 /// All networks of the same file share its weights.
 class Network {
  public:
@@ -27,9 +27,9 @@ class Network {
   /// `side` pixels to these outputs.
   Network(const std::filesystem::path& file, int side, const std::vector<ExpectedOutput>& outputs);
 
-  /// Returns the outputs for a picture. Throws DataError naming the file if the network cannot be
-  /// computed.
-  std::vector<std::vector<float>> run(const WritePicture& write) const;
+  /// Returns the outputs for a picture, the same for any number of threads. Throws DataError naming
+  /// the file if the network cannot be computed.
+  std::vector<std::vector<float>> run(const WritePicture& write, int threads = 1) const;
 
   int side() const { return side_; }
 

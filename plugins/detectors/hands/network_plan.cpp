@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "dnnl_primitives.hpp"
-#include "one_thread.hpp"
+#include "omp_threads.hpp"
 
 namespace hypotrack::hands {
 namespace {
@@ -229,8 +229,8 @@ class Planner {
 
 }  // namespace
 
-NetworkPlan plan_network(const NetworkGraph& graph) {
-  const OneThread one_thread;
+NetworkPlan plan_network(const NetworkGraph& graph, int threads) {
+  const OmpThreads own_threads(threads);
   return std::move(Planner(graph).plan);
 }
 

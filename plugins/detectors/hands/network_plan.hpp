@@ -33,7 +33,7 @@ struct NetworkPlan {
   std::size_t size = 0;                           ///< bytes of all buffers that are not constant
 };
 
-/// Plans a network for one thread. Throws dnnl::error if oneDNN cannot compute it.
-NetworkPlan plan_network(const NetworkGraph& graph);
+/// Plans a network for a number of threads. Throws dnnl::error if oneDNN cannot compute it.
+NetworkPlan plan_network(const NetworkGraph& graph, int threads);
 
 }  // namespace hypotrack::hands

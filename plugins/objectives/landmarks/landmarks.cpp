@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,15 @@
 #include "hypotrack/stop.hpp"
 
 namespace hypotrack::landmarks {
+namespace {
+
+/// Returns how many threads look at a view: other terms need the rest meanwhile.
+int threads_of_a_view() {
+  constexpr int kShare = 4, kMost = 4;  // more than four gain little
+  return std::clamp(tbb::this_task_arena::max_concurrency() / kShare, 1, kMost);
+}
+
+}  // namespace
 
 Landmarks::Landmarks(const Params& params, const Scene& scene, Detector detector, PluginLog log)
     : params_(params), log_(std::move(log)), scene_(scene), finder_(std::move(detector)) {
@@ -158,8 +168,8 @@ Detector networks(const LandmarksParams& params, const Scene& scene) {
   return {.detect = [detector](const cv::Mat& picture) { return detector->detect(picture); },
           .refine =
               [detector](const cv::Mat& picture, const HandPoints& guess, bool followed) {
-                return followed ? detector->follow(picture, guess)
-                                : detector->refine(picture, guess);
+                return followed ? detector->follow(picture, guess, threads_of_a_view())
+                                : detector->refine(picture, guess, threads_of_a_view());
               }};
 }
 

@@ -116,6 +116,14 @@ TEST_F(NetworkTest, OutputsAreTensorsOneAfterTheOther) {
   EXPECT_THAT(out, ElementsAre(0.5f, 2.5f, 25, 250));
 }
 
+TEST_F(NetworkTest, ComputesTheSameWithAnyNumberOfThreads) {
+  const Network network(write("picture 2\nconv 0 1 1 2 1 1 0 0 0 1 none\noutput out 1\nweights 7\n",
+                              {1, 0, 0, 0, 1, 0, 0.5f}),
+                        2, {{"out", 4}});
+  for (const int threads : {1, 2, 3, 1, 5})
+    EXPECT_THAT(network.run(write_picture, threads).front(), ElementsAre(21.5f, 2.5f, 43.5f, 4.5f));
+}
+
 TEST_F(NetworkTest, SeveralThreadsGetEqualResults) {
   const std::string head =
       "picture 2\nconv 0 1 1 1 1 1 0 0 0 0 none\nwiden 1 2\noutput out 2\nweights 4\n";

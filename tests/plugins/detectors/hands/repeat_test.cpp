@@ -43,6 +43,8 @@ TEST(RepeatedDetection, GivesTheSameWithEveryNumberOfThreads) {
       cv::setNumThreads(threads);
       expect_equal(detector.detect(picture), first);
       EXPECT_EQ(cv::getNumThreads(), threads);
+      const HandPoints& guess = first.front().landmarks;
+      expect_equal({*detector.follow(picture, guess, threads)}, {*detector.follow(picture, guess)});
     }
   }
 }
