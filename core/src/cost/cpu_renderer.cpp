@@ -36,6 +36,7 @@ class CpuRenderer : public HypothesisRenderer {
   }
 
   void render(const Eigen::MatrixXd& states, const Visit& visit) override {
+    views_at_once_ = 2 * states.cols() <= threads_;
     arena_.execute([&] {
       tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, states.cols()),
                         [&](const tbb::blocked_range<Eigen::Index>& range) {
@@ -60,10 +61,12 @@ class CpuRenderer : public HypothesisRenderer {
                                         static_cast<std::size_t>(states.rows()));
     if (drawers_.empty()) return visit(i, {state, {}});
     const int thread = tbb::this_task_arena::current_thread_index();
-    visit(i, {state, drawers_[static_cast<std::size_t>(thread)]->draw(state)});
+    HypothesisDrawer& drawer = *drawers_[static_cast<std::size_t>(thread)];
+    visit(i, {state, views_at_once_ ? drawer.draw_by_views(state) : drawer.draw(state)});
   }
 
   int threads_;
+  bool views_at_once_ = false;  // a small batch leaves threads without work
   tbb::global_control limit_;  // allows more threads than cores
   tbb::task_arena arena_;
   std::unique_ptr<const ScenePlan> plan_;

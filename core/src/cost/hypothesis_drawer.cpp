@@ -1,5 +1,7 @@
 #include "cost/hypothesis_drawer.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -84,6 +86,18 @@ std::span<const DepthTile> HypothesisDrawer::draw(std::span<const double> state)
   project();
   cull();
   fill();
+  return tiles_;
+}
+
+std::span<const DepthTile> HypothesisDrawer::draw_by_views(std::span<const double> state) {
+  clear();
+  pose(state);
+  project();
+  if (frame_->pair) cull_view(0);
+  tbb::parallel_for(std::size_t{0}, frame_->views.size(), [&](std::size_t view) {
+    if (!frame_->pair) cull_view(view);
+    fill(view);
+  });
   return tiles_;
 }
 

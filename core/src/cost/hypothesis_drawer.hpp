@@ -36,6 +36,8 @@ class HypothesisDrawer {
 
   /// Draws a normalised state; returns its depth in every view, valid until the next call.
   std::span<const DepthTile> draw(std::span<const double> state);
+  /// Draws as draw() does, the views at the same time: for a state that no other one goes with.
+  std::span<const DepthTile> draw_by_views(std::span<const double> state);
 
   std::span<const DepthTile> tiles() const { return tiles_; }
   /// Returns the posed state's projected vertices in a view (kRecord floats each). Both views of a

@@ -94,14 +94,16 @@ class Rasterizer : public testing::TestWithParam<std::int64_t> {
                         const Eigen::Vector3d& center = {0, 0, 0.5}, double radius = 0.05) {
     const ScenePlan plan(scene);
     const FrameProjection frame(observation);
-    HypothesisDrawer drawer(plan);
+    HypothesisDrawer drawer(plan), by_views(plan);
     drawer.prepare(frame);
+    by_views.prepare(frame);
     std::mt19937_64 random(7);
     std::vector<int> covered(observation.views.size(), 0);
     for (int i = 0; i < states; ++i) {
       const Eigen::VectorXd state = test::random_state(scene, random, center, radius);
       const auto tiles = drawer.draw(test::values_of(state));
       ASSERT_EQ(tiles.size(), observation.views.size());
+      EXPECT_EQ(pixels(by_views.draw_by_views(test::values_of(state))), pixels(tiles));
       for (std::size_t v = 0; v < tiles.size(); ++v) {
         const auto reference =
             test::reference_inverse_depth(scene, state, observation.views[v].camera);

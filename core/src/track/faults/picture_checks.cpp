@@ -1,5 +1,7 @@
 #include "track/faults/picture_checks.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -67,11 +69,12 @@ PictureChecks::PictureChecks(std::vector<Camera> cameras, bool with_depth)
 }
 
 ViewFault PictureChecks::check(const Frame& frame) {
-  SmallPictures now;
-  for (const View& view : frame.views)
-    now.push_back(view.color.empty() || !view.depth.empty() || view.color.type() != CV_8UC3
-                      ? nullptr
-                      : std::make_shared<const SmallPicture>(shrink(view.color)));
+  SmallPictures now(frame.views.size());
+  tbb::parallel_for(std::size_t{0}, now.size(), [&](std::size_t v) {
+    const View& view = frame.views[v];
+    if (!view.color.empty() && view.depth.empty() && view.color.type() == CV_8UC3)
+      now[v] = std::make_shared<const SmallPicture>(shrink(view.color));
+  });
   jumps_.assign(now.size(), 1);
   drifts_ = jumps_;
   ViewFault found = find(now);
