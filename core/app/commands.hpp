@@ -42,6 +42,8 @@ void add_plugins_command(const Command& root, CommonOptions& common, int& exit_c
 void add_new_plugin_command(const Command& plugins, CommonOptions& common, int& exit_code);
 void add_new_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_doctor_command(const Command& root, CommonOptions& common, int& exit_code);
+/// Adds a hidden command, a worker of `run` and `compare`.
+void add_work_command(const Command& root, CommonOptions& common, int& exit_code);
 /// Adds a hidden command that writes completions and manual pages of all commands.
 void add_shell_files_command(CommandLine& line);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -23,6 +24,8 @@
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
 #include "progress.hpp"
+#include "run/crew/crew.hpp"
+#include "run/crew/gpu_list.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
@@ -38,6 +41,7 @@ struct CompareOptions {
   double time_limit_s = 0;
   std::string shard = "1/1";
   bool retry_failed = false;
+  std::optional<std::string> gpus;
 };
 
 std::optional<std::size_t> parse_count(std::string_view text) {
@@ -80,6 +84,7 @@ class Console : public study::Watcher {
         progress_(static_cast<int>(runs), Progress::Unit::runs) {}
 
   bool stop() override { return interrupt_.interrupted(); }
+  void say(const std::string& text) override { progress_.say(text); }
 
   void on_run(const study::PlannedRun& run, const std::string& failure) override {
     if (!failure.empty()) {
@@ -128,13 +133,14 @@ std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const 
 /// Makes the runs and the recordings that they read. Returns false if it was interrupted.
 bool make_runs(const study::StudyFolder& folder, const study::Plan& plan,
                const std::vector<std::size_t>& runs, const study::Launch& launch,
+               const std::map<std::size_t, int>& gpus, Crew& crew,
                const InterruptGuard& interrupt) {
   const study::RedrawnRecordings recordings(plan);
   Console console(plan, runs.size(), interrupt);
   for (const std::vector<std::size_t>& batch : study::batches_of(plan, runs)) {
     if (plan.study.recordings)
       study::make_recordings(folder, plan, batch, launch, [&] { return !interrupt.interrupted(); });
-    if (!study::execute(folder, plan, batch, launch, console)) return false;
+    if (!study::execute(folder, plan, batch, launch, gpus, crew, console)) return false;
     recordings.remove_read(folder, batch);
   }
   return true;
@@ -159,19 +165,27 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   const study::Plan plan = study::make_plan(study::load_study(options.study, options.variant));
   const study::StudyFolder folder(options.out, plan);
   const std::vector<std::size_t> runs = runs_to_make(folder, plan, options);
-  const study::Launch launch = launch_of(options, common);
+  const auto list = options.gpus ? std::optional(parse_gpus(*options.gpus)) : std::nullopt;
+  study::Launch launch = launch_of(options, common);
+  if (list) launch.gpus = list->numbers;
   const InterruptGuard interrupt;
+  Crew crew(study::crew_settings(launch, plan));
+  if (list && !runs.empty()) {
+    tell("on {}\n", crew.start_gpus(list->all_needed));
+    launch.gpus = crew.settings().gpus;
+  }
   const std::vector<std::size_t> cells = cells_to_check(folder, plan, runs);
   tell("{}: {} runs in {} cells, {} to make here; {} at a time, {} thread{} each\n",
        plan.study.title, plan.runs.size(), plan.cells.size(), runs.size(), launch.jobs,
        launch.threads, launch.threads == 1 ? "" : "s");
-  study::check_cells(plan, cells, launch, [&] { return !interrupt.interrupted(); });
+  const auto gpus =
+      study::check_cells(plan, cells, launch, [&] { return !interrupt.interrupted(); });
   if (interrupt.interrupted()) {
     tell("hypotrack: interrupted before the first run\n");
     return kInterruptedExitCode;
   }
   folder.begin();
-  const bool complete = make_runs(folder, plan, runs, launch, interrupt);
+  const bool complete = make_runs(folder, plan, runs, launch, gpus, crew, interrupt);
   return conclude(study::write_tables(folder, plan), folder, complete);
 }
 
@@ -189,6 +203,8 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
               {.check = whole_number(1)});
   command.add("--threads", &options->threads, "Threads of each run (default: cores / jobs)",
               {.check = whole_number(1)});
+  command.add("--gpus", &options->gpus,
+              "GPUs to share the runs among: all, auto (those that answer), or numbers as 0,2");
   command.add("--shard", &options->shard,
               "Make a part of the runs: i/n, for one of n machines that share the folder");
   command.add("--time-limit", &options->time_limit_s,

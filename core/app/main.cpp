@@ -3,17 +3,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "base/standard_streams.hpp"
-#include "base/system_problem.hpp"
 #include "commands.hpp"
+#include "failure_text.hpp"
 #include "hypotrack/build_tag.hpp"
-#include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "plugin/crash_report.hpp"
 #include "tell.hpp"
@@ -76,22 +73,13 @@ int main(int argc, char** argv) {
   add_plugins_command(root, common, exit_code);
   add_new_command(root, common, exit_code);
   add_doctor_command(root, common, exit_code);
+  add_work_command(root, common, exit_code);
   add_shell_files_command(line);
   try {
     if (const int mistake = line.run(argc, argv); mistake != 0) return mistake;
     return close_output() ? exit_code : 1;
-  } catch (const hypotrack::Error& e) {
-    tell("hypotrack: {}\n", hypotrack::with_advice(e.what()));
-  } catch (const std::bad_alloc&) {
-    tell("hypotrack: out of memory\n");
-  } catch (const std::system_error& e) {  // a full disk behind stdout
-    tell("hypotrack: {}\n", hypotrack::described(e));
-  } catch (const std::exception& e) {
-    tell("hypotrack: unexpected error: {}\n", hypotrack::with_advice(e.what()));
   } catch (...) {
-    tell(
-        "hypotrack: unexpected error: a plugin threw something that is no "
-        "std::exception\n");
+    tell("hypotrack: {}\n", failure_text());
   }
   return 1;
 }

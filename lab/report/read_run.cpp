@@ -89,6 +89,7 @@ void read_results(const fs::path& directory, StudyRun& run) {
   const Json json = read_json_object(summary);
   for (const char* key : {"fps", "evaluations_per_second"})
     run.timing[key] = number_in(json, key, summary);
+  if (json.contains("backend")) run.backend = text_in(json, "backend", summary);
   if (run.timing["fps"] > 0) run.timing["frame_seconds"] = 1 / run.timing["fps"];
   if (json.contains("search_fps"))
     run.timing["search_fps"] = number_in(json, "search_fps", summary);

@@ -42,6 +42,7 @@ Json run_json(const StudyData& study, const StudyRun& run) {
     json["message"] = run.message;
     return json;
   }
+  if (!run.backend.empty()) json["backend"] = run.backend;
   json["metrics"] = metrics_json(run);
   json["models"] = run.models_mm;
   json["landmarks"] = Json::array();

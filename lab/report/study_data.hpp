@@ -48,6 +48,7 @@ struct StudyRun {
   long seed = 0;
   bool failed = false;
   std::string message;                      ///< of a failure
+  std::string backend;                      ///< of summary.json: what evaluated, and on which GPU
   std::map<std::string, double> metrics;    ///< numbers of metrics.json; NaN where null
   std::map<std::string, double> timing;     ///< fps, evaluations_per_second of summary.json
   std::map<std::string, double> models_mm;  ///< mean error per model

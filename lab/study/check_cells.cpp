@@ -1,44 +1,24 @@
 #include "lab/study/check_cells.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <map>
 #include <set>
-#include <system_error>
 #include <thread>
 
+#include "cost/cuda/backend_text.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/study/failure_message.hpp"
-#include "lab/study/process_pool.hpp"
+#include "hypotrack/text_file.hpp"
+#include "run/crew/failure_message.hpp"
+#include "run/crew/process_pool.hpp"
+#include "run/crew/scratch_folder.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
 
 constexpr std::chrono::milliseconds kCheckPoll{5};
 constexpr std::size_t kMostShown = 5;
-
-/// A temporary folder for the logs of the checks.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (std::filesystem::temp_directory_path() / "hypotrack_XXXXXX").string();
-    if (!mkdtemp(name.data()))
-      throw OutputError(name + ": cannot make a temporary folder; set TMPDIR to one with room");
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  std::filesystem::path log(std::size_t cell) const { return path_ / fmt::format("{}", cell); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Returns the line of the study that a message is about: that of the change it names, or the
 /// scene's.
@@ -62,30 +42,43 @@ std::string report(const Plan& plan, const std::map<std::size_t, std::string>& p
                             problems.size(), plan.cells.size());
 }
 
+std::vector<std::string> check_arguments(const Plan& plan, const Cell& cell, const Launch& launch) {
+  auto arguments =
+      scene_arguments("validate", plan.scene_of(cell).file, plan.changes_of(cell), plan, launch);
+  if (!launch.gpus.empty())
+    arguments.insert(arguments.end(),
+                     {"--set", fmt::format("evaluate.device={}", launch.gpus.front())});
+  return arguments;
+}
+
 }  // namespace
 
-void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const Launch& launch,
-                 const std::function<bool()>& again) {
-  const Scratch scratch;
+std::map<std::size_t, int> check_cells(const Plan& plan, const std::vector<std::size_t>& cells,
+                                       const Launch& launch, const std::function<bool()>& again) {
+  const ScratchFolder scratch;
+  const auto log = [&](std::size_t cell) { return scratch.path() / fmt::format("{}", cell); };
   ProcessPool pool(launch.time_limit_s);
   std::map<std::size_t, std::string> problems;
+  std::map<std::size_t, int> gpus;
   std::size_t next = 0;
   while (again() && (next < cells.size() || pool.size() > 0)) {
     if (next < cells.size() && pool.size() < static_cast<std::size_t>(launch.jobs)) {
       const std::size_t cell = cells[next++];
-      pool.start(cell,
-                 study_command(launch, plan,
-                               scene_arguments("validate", plan.scene_of(plan.cells[cell]).file,
-                                               plan.changes_of(plan.cells[cell]), plan, launch),
-                               scratch.log(cell)));
+      pool.start(cell, study_command(launch, plan, check_arguments(plan, plan.cells[cell], launch),
+                                     log(cell)));
       continue;
     }
     const auto ended = pool.take_ended();
-    if (!ended) std::this_thread::sleep_for(kCheckPoll);
-    if (ended && ended->end.code != 0)
-      problems[ended->key] = failure_message(scratch.log(ended->key), *ended);
+    if (!ended) {
+      std::this_thread::sleep_for(kCheckPoll);
+    } else if (ended->end.code != 0) {
+      problems[ended->key] = failure_message(log(ended->key), *ended);
+    } else if (const auto gpu = cuda::gpu_in(read_whole(log(ended->key)).value_or(""))) {
+      gpus[ended->key] = *gpu;
+    }
   }
   if (!problems.empty()) throw ConfigError(report(plan, problems));
+  return gpus;
 }
 
 }  // namespace hypotrack::study::internal

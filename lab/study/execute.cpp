@@ -8,9 +8,8 @@
 #include <thread>
 #include <utility>
 
-#include "lab/study/failure_message.hpp"
-#include "lab/study/process_pool.hpp"
 #include "lab/study/recordings.hpp"
+#include "run/crew/failure_message.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
@@ -24,20 +23,24 @@ constexpr int kInterrupted = 130;                 // exit code of a run that was
 class Execution {
  public:
   Execution(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
-            const Launch& launch, Watcher& watcher)
-      : folder_(folder),
-        plan_(plan),
-        launch_(launch),
-        watcher_(watcher),
-        pool_(launch.time_limit_s) {
+            const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
+            Watcher& watcher)
+      : folder_(folder), plan_(plan), launch_(launch), gpus_(gpus), crew_(crew), watcher_(watcher) {
     for (const std::size_t run : runs) waiting_.push_back({run, {}, folder_.state(plan.runs[run])});
   }
 
+  ~Execution() {
+    if (!working_.empty()) crew_.kill();  // before the folders go
+  }
+  Execution(const Execution&) = delete;
+  Execution& operator=(const Execution&) = delete;
+
   bool work() {
-    while (!waiting_.empty() || pool_.size() > 0) {
+    while (!waiting_.empty() || !working_.empty()) {
       if (watcher_.stop()) return false;
       const bool moved = start_next();
-      const auto ended = pool_.take_ended();
+      const auto ended = crew_.take_ended();
+      for (const std::string& note : crew_.take_notes()) watcher_.say(note);
       if (ended && !finish(*ended)) return false;
       if (!moved && !ended) std::this_thread::sleep_for(kRunPoll);
     }
@@ -58,17 +61,17 @@ class Execution {
   const StudyFolder& folder_;
   const Plan& plan_;
   const Launch& launch_;
+  const std::map<std::size_t, int>& gpus_;
+  Crew& crew_;
   Watcher& watcher_;
   std::deque<Waiting> waiting_;
-  std::map<std::size_t, RunFolder> working_;  // declared before pool_, whose processes must end
-                                              // first
-  ProcessPool pool_;
+  std::map<std::size_t, RunFolder> working_;
 };
 
 /// Starts the first waiting run that no other process makes. Returns false if nothing can start
 /// now.
 bool Execution::start_next() {
-  if (waiting_.empty() || pool_.size() >= static_cast<std::size_t>(launch_.jobs)) return false;
+  if (waiting_.empty() || !crew_.has_room()) return false;
   Waiting next = waiting_.front();
   if (next.retry > Clock::now()) return false;  // all behind it wait longer
   waiting_.pop_front();
@@ -90,10 +93,13 @@ bool Execution::start_next() {
 
 void Execution::start(std::size_t index, RunFolder folder) {
   const PlannedRun& run = plan_.runs[index];
-  auto arguments = run_arguments(folder_, plan_, run, launch_);
-  arguments.insert(arguments.end(),
-                   {"--out", folder.working().string(), "--seed", fmt::format("{}", run.seed)});
-  pool_.start(index, work_command(launch_, plan_, std::move(arguments), folder));
+  Job job = job_of(folder_, plan_, run, launch_);
+  job.key = index;
+  job.out = folder.working();
+  job.log = folder.log();
+  job.descriptors = {{folder.lock_descriptor(), folder.lock_descriptor()}};
+  if (const auto gpu = gpus_.find(run.cell); gpu != gpus_.end()) job.gpu = gpu->second;
+  crew_.start(std::move(job));
   working_.emplace(index, std::move(folder));
 }
 
@@ -102,7 +108,7 @@ bool Execution::finish(const Ended& ended) {
   RunFolder& folder = working_.at(ended.key);
   std::string failure;
   if (ended.end.code == 0 && folder.holds_a_complete_run()) {
-    folder.finish(plan_, run, {ended.seconds, launch_.threads});
+    folder.finish(plan_, run, {ended.seconds, launch_.threads, ended.gpu});
   } else {
     failure = failure_message(folder.log(), ended);
     if (ended.end.code == kInterrupted && failure.starts_with("interrupted")) return false;
@@ -118,8 +124,9 @@ bool Execution::finish(const Ended& ended) {
 Watcher::~Watcher() = default;
 
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
-             const Launch& launch, Watcher& watcher) {
-  return Execution(folder, plan, runs, launch, watcher).work();
+             const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
+             Watcher& watcher) {
+  return Execution(folder, plan, runs, launch, gpus, crew, watcher).work();
 }
 
 }  // namespace hypotrack::study::internal

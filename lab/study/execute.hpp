@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
+#include "run/crew/crew.hpp"
 
 namespace hypotrack::study {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -20,14 +22,17 @@ class Watcher {
   virtual bool stop() = 0;
   /// Called when a run is finished, by this or another process. `failure` is empty if it succeeded.
   virtual void on_run(const PlannedRun& run, const std::string& failure) = 0;
+  /// Receives a line for the user.
+  virtual void say(const std::string& text) = 0;
 };
 
-/// Makes the given runs (indices into the plan), each in a separate process. Also waits for runs
-/// that other processes are making. Records failures in the folder. Returns false if the watcher,
-/// or somebody who interrupted a run, ended the work early; unfinished runs are then given up.
-/// Throws OutputError.
+/// Makes the given runs (indices into the plan) with a crew. `gpus`: number of the GPU of each cell
+/// that takes one. Also waits for runs that other processes are making. Records failures in the
+/// folder. Returns false if the watcher, or somebody who interrupted a run, ended the work early;
+/// unfinished runs are then given up. Throws OutputError.
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
-             const Launch& launch, Watcher& watcher);
+             const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
+             Watcher& watcher);
 
 }  // namespace internal
 }  // namespace hypotrack::study

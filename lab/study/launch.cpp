@@ -2,10 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <utility>
 
+#include "run/crew/crew.hpp"
+
 namespace hypotrack::study::internal {
+
+std::vector<std::string> settings_of(const std::vector<Change>& changes, const Plan& plan,
+                                     const Launch& launch) {
+  std::vector<std::string> settings{fmt::format("evaluate.threads={}", launch.threads),
+                                    fmt::format("output.overlay={}", plan.study.overlay)};
+  if (plan.study.trace) settings.emplace_back("output.trace=true");
+  for (const Change& change : changes) settings.push_back(change.assignment());
+  return settings;
+}
 
 std::vector<std::string> scene_arguments(const std::string& subcommand,
                                          const std::filesystem::path& scene,
@@ -15,13 +25,8 @@ std::vector<std::string> scene_arguments(const std::string& subcommand,
   for (const auto& folder : launch.plugin_path)
     arguments.insert(arguments.end(), {"--plugin-path", folder.string()});
   arguments.insert(arguments.end(), {subcommand, scene.string()});
-  const auto set = [&](const std::string& assignment) {
-    arguments.insert(arguments.end(), {"--set", assignment});
-  };
-  set(fmt::format("evaluate.threads={}", launch.threads));
-  set(fmt::format("output.overlay={}", plan.study.overlay));
-  if (plan.study.trace) set("output.trace=true");
-  for (const Change& change : changes) set(change.assignment());
+  for (const std::string& setting : settings_of(changes, plan, launch))
+    arguments.insert(arguments.end(), {"--set", setting});
   return arguments;
 }
 
@@ -30,11 +35,18 @@ Subprocess::Command study_command(const Launch& launch, const Plan& plan,
   Subprocess::Command command{launch.program, std::move(arguments)};
   command.directory = plan.study.directory;
   command.output = command.errors = std::move(log);
-  // Otherwise Mesa's software rasteriser starts a thread per core in every run.
-  constexpr const char* kMesaThreads = "LP_NUM_THREADS";
-  if (!std::getenv(kMesaThreads))
-    command.variables = {fmt::format("{}={}", kMesaThreads, launch.threads)};
+  command.variables = driver_variables(launch.threads);
   return command;
+}
+
+CrewSettings crew_settings(const Launch& launch, const Plan& plan) {
+  return {.program = launch.program,
+          .plugin_path = launch.plugin_path,
+          .directory = plan.study.directory,
+          .variables = driver_variables(launch.threads),
+          .gpus = launch.gpus,
+          .jobs = launch.jobs,
+          .time_limit_s = launch.time_limit_s};
 }
 
 Subprocess::Command work_command(const Launch& launch, const Plan& plan,

@@ -12,10 +12,10 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
-#include "lab/study/failure_message.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/noise.hpp"
-#include "lab/study/process_pool.hpp"
+#include "run/crew/failure_message.hpp"
+#include "run/crew/process_pool.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
@@ -147,13 +147,20 @@ void RedrawnRecordings::remove_read(const StudyFolder& folder,
   }
 }
 
-std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
-                                       const PlannedRun& run, const Launch& launch) {
+Job job_of(const StudyFolder& folder, const Plan& plan, const PlannedRun& run,
+           const Launch& launch) {
   const std::vector<Change> changes = plan.changes_of(run);
-  if (!plan.study.recordings)
-    return scene_arguments("run", plan.scene_of(plan.cells[run.cell]).file, changes, plan, launch);
-  const auto scene = folder.recording_path(recording_id(plan, run)) / "recording" / "scene.yaml";
-  return scene_arguments("run", scene, select(changes, false), plan, launch);
+  Job job;
+  if (plan.study.recordings) {
+    job.scene = folder.recording_path(recording_id(plan, run)) / "recording" / "scene.yaml";
+    job.set = settings_of(select(changes, false), plan, launch);
+  } else {
+    job.scene = plan.scene_of(plan.cells[run.cell]).file;
+    job.set = settings_of(changes, plan, launch);
+  }
+  job.set.push_back(fmt::format("seed={}", run.seed));
+  job.frames = plan.study.frames;
+  return job;
 }
 
 }  // namespace hypotrack::study::internal

@@ -11,6 +11,7 @@
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
+#include "run/crew/job.hpp"
 
 namespace hypotrack::study {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -47,10 +48,10 @@ class RedrawnRecordings {
   std::map<std::string, std::vector<std::size_t>> readers_;
 };
 
-/// Returns the first arguments of `hypotrack run` for a run: `run`, the scene and the changes. The
-/// scene of a recording already contains the changes of models and source.
-std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
-                                       const PlannedRun& run, const Launch& launch);
+/// Returns the job of a run: the scene and its settings. The scene of a recording already contains
+/// the changes of models and source.
+Job job_of(const StudyFolder& folder, const Plan& plan, const PlannedRun& run,
+           const Launch& launch);
 
 }  // namespace internal
 }  // namespace hypotrack::study

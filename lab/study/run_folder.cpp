@@ -101,6 +101,7 @@ void RunFolder::finish(const Plan& plan, const PlannedRun& run, const RunCost& c
   Json timing;
   timing["seconds"] = cost.seconds;
   timing["threads"] = cost.threads;
+  if (cost.gpu) timing["gpu"] = *cost.gpu;
   write_json(working_ / "timing.json", timing);
   put_into_place();
 }

@@ -22,6 +22,7 @@ struct RunFailure {
 struct RunCost {
   double seconds = 0;
   int threads = 0;
+  std::optional<int> gpu = std::nullopt;  ///< number of the GPU that a worker had for it
 };
 
 /// The working folder of a run, or a recording, that this process makes, and its lock. Moves to its

@@ -77,8 +77,8 @@ std::string results_text(const Plan& plan, const std::vector<RunResult>& results
 }
 
 std::string timing_text(const Plan& plan, const std::vector<RunResult>& results) {
-  const std::vector<std::string> names = {"fps", "search_fps", "evaluations_per_second", "seconds",
-                                          "threads"};
+  const std::vector<std::string> names = {"fps",     "search_fps", "evaluations_per_second",
+                                          "seconds", "threads",    "gpu"};
   std::string text = header_of(plan) + ",seed" + joined(names) + "\n";
   for (const RunResult& result : results)
     if (result.ok)

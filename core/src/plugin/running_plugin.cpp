@@ -7,6 +7,7 @@
 #include <atomic>
 #include <charconv>
 #include <cstddef>
+#include <mutex>
 #include <string_view>
 #include <utility>
 
@@ -20,7 +21,10 @@ namespace {
 [[gnu::tls_model("initial-exec")]] thread_local const char* t_how = "";
 
 constexpr int kNoFrame = -1;
+// Of threads that track no frame themselves. Several trackers: they might help either.
 std::atomic<int> g_frame{kNoFrame};
+std::mutex g_running;
+int g_tracked = 0;  // frames, under the mutex
 
 constexpr int kTrackedFrame = -2;
 [[gnu::tls_model("initial-exec")]] thread_local int t_frame = kTrackedFrame;
@@ -58,8 +62,15 @@ RunningPlugin::~RunningPlugin() {
   t_how = how_;
 }
 
-RunningFrame::RunningFrame(int index) { g_frame = index; }
-RunningFrame::~RunningFrame() { g_frame = kNoFrame; }
+RunningFrame::RunningFrame(int index) : of_thread_(index) {
+  const std::lock_guard<std::mutex> lock(g_running);
+  g_frame = ++g_tracked == 1 ? index : kNoFrame;
+}
+RunningFrame::~RunningFrame() {
+  const std::lock_guard<std::mutex> lock(g_running);
+  --g_tracked;
+  g_frame = kNoFrame;
+}
 
 ThreadFrame::ThreadFrame(std::optional<int> index)
     : before_(std::exchange(t_frame, index.value_or(kNoFrame))) {}

@@ -23,15 +23,6 @@ class RunningPlugin {
   const char* how_;
 };
 
-/// Names the frame that is tracked during this object's lifetime, for the same message.
-class RunningFrame {
- public:
-  explicit RunningFrame(int index);
-  ~RunningFrame();
-  RunningFrame(const RunningFrame&) = delete;
-  RunningFrame& operator=(const RunningFrame&) = delete;
-};
-
 /// Names the frame that the calling thread works on during this object's lifetime, where that is
 /// not the frame that is tracked. Nothing: an unknown frame.
 class ThreadFrame {
@@ -43,6 +34,19 @@ class ThreadFrame {
 
  private:
   int before_;
+};
+
+/// Names the frame that is tracked during this object's lifetime, for the same
+/// message. Threads that help the calling one know it too, unless another tracker is at work.
+class RunningFrame {
+ public:
+  explicit RunningFrame(int index);
+  ~RunningFrame();
+  RunningFrame(const RunningFrame&) = delete;
+  RunningFrame& operator=(const RunningFrame&) = delete;
+
+ private:
+  ThreadFrame of_thread_;
 };
 
 /// Returns the frame that the calling thread works on or, if it named none, that is tracked.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "cost/cuda/device.hpp"
 #include "hypotrack/plugin.hpp"
 #include "run/run_scene.hpp"
 #include "run/tracker_impl.hpp"
@@ -20,7 +21,12 @@ struct Session::Impl {
       : file(std::move(scene_file)),
         options(std::move(session_options)),
         plugins(options.plugin_path),
-        models(open_without_source(file, options.set, plugins)) {}
+        models(open()) {}
+
+  OpenedScene open() {
+    const cuda::KeepDevice keep;
+    return open_without_source(file, options.set, plugins);
+  }
 
   std::filesystem::path file;
   SessionOptions options;
@@ -37,12 +43,13 @@ Session::~Session() = default;
 const Scene& Session::scene() const { return *impl_->models.scene; }
 
 Tracker Session::tracker(std::vector<Camera> cameras) {
+  const cuda::KeepDevice keep;
   // Parts belong to one tracker, so each gets its own.
-  return Tracker(std::make_unique<Tracker::Impl>(
-      open_without_source(impl_->file, impl_->options.set, impl_->plugins), std::move(cameras)));
+  return Tracker(std::make_unique<Tracker::Impl>(impl_->open(), std::move(cameras)));
 }
 
 bool Session::run(const RunOptions& options, RunWatcher& watcher) {
+  const cuda::KeepDevice keep;
   return run_scene(impl_->file, impl_->options.set, impl_->plugins, options, watcher).complete;
 }
 

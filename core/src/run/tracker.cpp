@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/stop_scope.hpp"
+#include "cost/cuda/device.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_notes.hpp"
@@ -116,6 +117,7 @@ Solution Tracker::track(const Frame& frame, const StopTest& stop) {
   self.check_order(frame);
   self.check_views(frame);
   const StopScope scope(stop);
+  const cuda::KeepDevice keep;
   try {
     if (!self.tracker && !frame.views.empty()) self.begin(frame);
     Solution solution =

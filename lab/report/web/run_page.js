@@ -15,6 +15,7 @@ hypotrack.runFacts = function (page, run) {
       facts.push([page.metrics[key].label, hypotrack.metricText(page, key, run.metrics[key])]);
   });
   facts.push(['evaluations per frame', run.series.evaluations.toFixed(0)]);
+  if (run.backend) facts.push(['evaluated by', run.backend]);
   var models = Object.keys(run.models || {});
   if (models.length > 1)
     models.forEach(function (name) { facts.push([name, run.models[name].toFixed(2) + ' mm']); });

@@ -87,6 +87,23 @@ TEST(PluginNotes, AThreadMayWorkOnAnotherFrame) {
                                                "note: a, frame 12: searches"));
 }
 
+TEST(PluginNotes, OfSeveralTrackersEachThreadNamesItsOwnFrame) {
+  const auto notes = std::make_shared<PluginNotes>();
+  const PluginLog log(notes, "a");
+  const detail::RunningFrame running(12);
+  const auto helps = [&](const char* text) { std::thread([&] { log.note(text); }).join(); };
+  helps("helps the only one");
+  std::thread([&] {
+    const detail::RunningFrame other(3);
+    log.note("tracks");
+    helps("helps either");
+  }).join();
+  log.note("goes on");
+  EXPECT_THAT(notes->take_lines(),
+              ElementsAre("note: a, frame 12: helps the only one", "note: a, frame 3: tracks",
+                          "note: a: helps either", "note: a, frame 12: goes on"));
+}
+
 TEST(PluginLog, NobodyReadsAnEmptyOne) {
   const PluginLog log;
   EXPECT_FALSE(log.is_read());

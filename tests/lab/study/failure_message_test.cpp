@@ -1,17 +1,15 @@
-#include "lab/study/failure_message.hpp"
+#include "run/crew/failure_message.hpp"
 
 #include "study_test.hpp"
 
 namespace hypotrack::test {
 namespace {
 
-using study::Ended;
-
 class FailureMessageTest : public StudyTest {
  protected:
   std::string message(const std::string& log, const Ended& ended) const {
     write("log.txt", log);
-    return study::failure_message(path("log.txt"), ended);
+    return failure_message(path("log.txt"), ended);
   }
 };
 

@@ -22,7 +22,7 @@ class TablesTest : public StudyTest {
     std::ofstream(folder / "summary.json")
         << R"({"complete": true, "frames": 5, "fps": 20.5, "search_fps": 8.5,
       "evaluations_per_second": 1000, "lost_frames": 1, "backend": "cpu"})";
-    std::ofstream(folder / "timing.json") << R"({"seconds": 1.5, "threads": 2})";
+    std::ofstream(folder / "timing.json") << R"({"seconds": 1.5, "threads": 2, "gpu": 1})";
   }
 
   void add_failure(std::size_t run, const std::string& message) const {
@@ -78,9 +78,11 @@ TEST_F(TablesTest, TimingIsApartBecauseItIsNotTheSameTwice) {
   add_run(0, R"({"mean_error_mm": 2})");
   add_failure(1, "broken");
   write_tables();
-  EXPECT_EQ(table("timing.csv"),
-            "scene,optimizer.particles,seed,fps,search_fps,evaluations_per_second,seconds,threads\n"
-            "box,16,1,20.5,8.5,1000,1.5,2\n");
+  EXPECT_EQ(
+      table("timing.csv"),
+      "scene,optimizer.particles,seed,fps,search_fps,evaluations_per_second,seconds,threads,gpu"
+      "\n"
+      "box,16,1,20.5,8.5,1000,1.5,2,1\n");
 }
 
 TEST_F(TablesTest, ADamagedFileIsNamedWithTheFolderToRemove) {

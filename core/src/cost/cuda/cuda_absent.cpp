@@ -8,6 +8,11 @@ namespace hypotrack::cuda::internal {
 
 std::string why_no_device(int) { return "this hypotrack was built without CUDA"; }
 
+std::string why_not_this_device(int) { return why_no_device(); }
+
+KeepDevice::KeepDevice() = default;
+KeepDevice::~KeepDevice() = default;
+
 std::optional<std::size_t> free_memory(int) { return std::nullopt; }
 void wait_for_device() {}
 

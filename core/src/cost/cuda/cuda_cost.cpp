@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cost/backends.hpp"
+#include "cost/cuda/backend_text.hpp"
 #include "cost/cuda/device_linearizer.hpp"
 #include "cost/cuda/device_residuals.hpp"
 #include "cost/cuda/device_scene.hpp"
@@ -41,7 +42,9 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
     use_prior(rotations_from);
     return this;
   }
-  std::string backend() const override { return fmt::format("cuda ({})", frame_.device().name()); }
+  std::string backend() const override {
+    return backend_text(frame_.device().name(), frame_.device().index());
+  }
 
   // StateResiduals
   Eigen::Index count() const override {

@@ -66,6 +66,18 @@ std::optional<std::size_t> free_memory(int index) {
 
 void wait_for_device() { check(cudaDeviceSynchronize(), "waiting for the GPU"); }
 
+// Asking and setting the device that is current already make no context.
+KeepDevice::KeepDevice() {
+  static const bool has_devices = why_no_device().empty();
+  if (has_devices && cudaGetDevice(&before_) != cudaSuccess) before_ = -1;
+}
+
+KeepDevice::~KeepDevice() {
+  int now = -1;
+  if (before_ < 0 || cudaGetDevice(&now) != cudaSuccess || now == before_) return;
+  if (cudaSetDevice(before_) != cudaSuccess) (void)cudaGetLastError();  // for no later call
+}
+
 Device::Device(int index) : index_(index) {
   std::string why = why_no_device(index);
   if (why.empty()) why = why_not_this_device(index);

@@ -26,6 +26,18 @@ std::optional<std::size_t> free_memory(int index = 0);
 /// Waits until the GPU of this thread has finished all its work. Throws DeviceError.
 void wait_for_device();
 
+/// Keeps the calling thread's GPU: gives it back at the end, whatever was made current since.
+class KeepDevice {
+ public:
+  KeepDevice();
+  ~KeepDevice();
+  KeepDevice(const KeepDevice&) = delete;
+  KeepDevice& operator=(const KeepDevice&) = delete;
+
+ private:
+  int before_ = -1;  ///< -1: unknown
+};
+
 /// A GPU and the stream for all work of one cost.
 class Device {
  public:
@@ -38,6 +50,7 @@ class Device {
 
   Stream stream() const { return stream_; }
   const DeviceLimits& limits() const { return limits_; }
+  int index() const { return index_; }
   /// Returns the device's name: `NVIDIA H200`.
   const std::string& name() const { return name_; }
   /// Makes it the GPU of the calling thread again.

@@ -1,4 +1,4 @@
-#include "lab/study/process_pool.hpp"
+#include "run/crew/process_pool.hpp"
 
 #include <fmt/format.h>
 
@@ -7,16 +7,20 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::study::internal {
+namespace hypotrack::internal {
 
-void ProcessPool::start(std::size_t key, const Subprocess::Command& command) {
+Subprocess start_process(const Subprocess::Command& command) {
   try {
-    running_.push_back({key, Subprocess(command), Clock::now()});
+    return Subprocess(command);
   } catch (const std::system_error& error) {
     const bool too_many = error.code() == std::errc::resource_unavailable_try_again ||
                           error.code() == std::errc::not_enough_memory;
     throw OutputError(fmt::format("{}{}", error.what(), too_many ? "; use fewer --jobs" : ""));
   }
+}
+
+void ProcessPool::start(std::size_t key, const Subprocess::Command& command) {
+  running_.push_back({key, start_process(command), Clock::now()});
 }
 
 std::optional<Ended> ProcessPool::take_ended() {
@@ -33,4 +37,8 @@ std::optional<Ended> ProcessPool::take_ended() {
   return std::nullopt;
 }
 
-}  // namespace hypotrack::study::internal
+void ProcessPool::signal(int number) const {
+  for (const Running& each : running_) each.process.signal(number);
+}
+
+}  // namespace hypotrack::internal

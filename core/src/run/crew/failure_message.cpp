@@ -1,4 +1,4 @@
-#include "lab/study/failure_message.hpp"
+#include "run/crew/failure_message.hpp"
 
 #include <fmt/format.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace hypotrack::study::internal {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::string_view kMessagePrefix = "hypotrack: ";
@@ -59,4 +59,4 @@ std::string failure_message(const std::filesystem::path& log_file, const Ended& 
   return fmt::format("{}; its last line: {}", end_of(ended.end), log.last_line);
 }
 
-}  // namespace hypotrack::study::internal
+}  // namespace hypotrack::internal

@@ -8,15 +8,16 @@
 #include "base/exported.hpp"
 #include "base/subprocess.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// The end of a program.
+/// The end of a program, or of a run in one.
 struct Ended {
-  std::size_t key = 0;  ///< key given to start()
+  std::size_t key = 0;  ///< key given at the start
   Subprocess::End end;
   double seconds = 0;
-  double limit_s = 0;  ///< time limit after which the pool ended it; 0: it ended by itself
+  double limit_s = 0;  ///< time limit after which it was ended; 0: it ended by itself
+  std::optional<int> gpu = std::nullopt;  ///< number of the GPU that a worker had for it
 };
 
 /// Programs that run at the same time. None outlives the pool.
@@ -29,6 +30,8 @@ class ProcessPool {
   /// Removes and returns a program that has ended, if any.
   std::optional<Ended> take_ended();
   std::size_t size() const { return running_.size(); }
+  /// Sends a signal to all programs.
+  void signal(int number) const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -41,5 +44,8 @@ class ProcessPool {
   std::vector<Running> running_;
 };
 
+/// Starts a program. Throws OutputError if it cannot be started or its log cannot be written.
+Subprocess start_process(const Subprocess::Command& command);
+
 }  // namespace internal
-}  // namespace hypotrack::study
+}  // namespace hypotrack

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "lab/study/process_pool.hpp"
+#include "run/crew/process_pool.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns why a program failed: hypotrack's own message in its log, or else how it ended and the
@@ -14,4 +14,4 @@ inline namespace HYPOTRACK_EXPORTED internal {
 std::string failure_message(const std::filesystem::path& log, const Ended& ended);
 
 }  // namespace internal
-}  // namespace hypotrack::study
+}  // namespace hypotrack

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "output/summary.hpp"
+
+namespace hypotrack::app {
+
+/// Returns the lines that a run ends with: speed, errors, where the results are.
+std::string summary_text(const Summary& summary, const std::filesystem::path& out);
+
+/// What a run says that was interrupted before it wrote anything, and what after, without
+/// `hypotrack: `.
+inline constexpr const char* kInterruptedEarly =
+    "interrupted before the first frame; nothing was written";
+inline constexpr const char* kInterruptedLate = "interrupted; the files hold the frames so far";
+
+}  // namespace hypotrack::app

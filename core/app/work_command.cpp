@@ -1,0 +1,172 @@
+// The hidden command that a crew starts for a GPU (run/crew/).
+#include <fmt/format.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <fstream>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "commands.hpp"
+#include "cost/cuda/device.hpp"
+#include "cost/cuda/page_locked_images.hpp"
+#include "failure_text.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+#include "interrupt.hpp"
+#include "plugin/running_plugin.hpp"
+#include "run/crew/job.hpp"
+#include "run/run_scene.hpp"
+#include "run_summary.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Kind = WorkerAnswer::Kind;
+
+/// Writes what a run says to its log, and ends it at its time limit or on a signal.
+class LoggedRun final : public RunWatcher {
+ public:
+  LoggedRun(const std::filesystem::path& log, const InterruptGuard& interrupt, double limit_s)
+      : log_(log, std::ios::binary), interrupt_(interrupt), limit_s_(limit_s) {}
+
+  bool overdue() const {
+    return limit_s_ > 0 && std::chrono::duration<double>(Clock::now() - begin_).count() > limit_s_;
+  }
+  bool stop() override { return interrupt_.interrupted() || overdue(); }
+  void say(const std::string& text) override { log_ << text << std::endl; }
+  void frame(const Frame& frame, const Solution& /*solution*/, double /*error*/) override {
+    if (!frame.problem.empty()) say(fmt::format("frame {}: {}", frame.index, frame.problem));
+  }
+
+ private:
+  std::ofstream log_;
+  const InterruptGuard& interrupt_;
+  double limit_s_;
+  Clock::time_point begin_ = Clock::now();
+};
+
+/// Makes the jobs that come through a socket, each in a thread, and answers.
+class Worker {
+ public:
+  Worker(std::optional<int> gpu, const CommonOptions& common) : gpu_(gpu), common_(common) {}
+
+  void serve() {
+    if (!take_gpu()) return;
+    LineBuffer lines;
+    std::array<char, 4096> chunk;
+    for (;;) {
+      const ssize_t size = recv(kWorkerSocket, chunk.data(), chunk.size(), 0);
+      if (size < 0 && errno == EINTR) continue;
+      if (size <= 0) break;
+      lines.add(chunk.data(), static_cast<std::size_t>(size));
+      while (const auto line = lines.next()) begin(*line);
+    }
+    runs_.clear();  // waits for them
+  }
+
+ private:
+  struct Thread {
+    std::atomic<bool> done = false;
+    std::jthread thread;
+  };
+
+  bool take_gpu() {
+    if (!gpu_) {
+      answer({Kind::ready, "CPU"});
+      return true;
+    }
+    std::string why = cuda::why_no_device(*gpu_);
+    if (why.empty()) why = cuda::why_not_this_device(*gpu_);
+    if (!why.empty()) {
+      answer({Kind::absent, why});
+      return false;
+    }
+    cuda::page_lock_images(*gpu_);  // before threads make images
+    answer({Kind::ready, cuda::Device(*gpu_).name()});
+    return true;
+  }
+
+  void begin(const std::string& line) {
+    runs_.remove_if([](const Thread& each) { return each.done.load(); });
+    double limit_s = 0;
+    Job job = parse_job(line, limit_s);
+    Thread& made = runs_.emplace_back();
+    made.thread = std::jthread([this, &made, job = std::move(job), limit_s] {
+      answer(make(job, limit_s));
+      made.done = true;
+    });
+  }
+
+  WorkerAnswer make(const Job& job, double limit_s) const {
+    const hypotrack::detail::ThreadFrame unknown(std::nullopt);  // not that of another run
+    LoggedRun watcher(job.log, interrupt_, limit_s);
+    WorkerAnswer answer{Kind::ended, {}, job.key, 1};
+    try {
+      answer.code = run(job, watcher);
+      if (answer.code != 0 && watcher.overdue()) answer.kind = Kind::overdue;
+    } catch (const DeviceError&) {
+      watcher.say("hypotrack: " + failure_text());
+      if (gpu_ && !cuda::free_memory(*gpu_)) answer.kind = Kind::lost;
+    } catch (...) {
+      watcher.say("hypotrack: " + failure_text());
+    }
+    return answer;
+  }
+
+  /// Returns the exit code that a process of the run would have.
+  int run(const Job& job, LoggedRun& watcher) const {
+    PluginLoader plugins(common_.plugin_path);
+    const RunOptions options{.out = job.out, .frames = job.frames, .stop_now = [&watcher] {
+                               return InterruptGuard::signalled() || watcher.overdue();
+                             }};
+    const RunResult result = run_scene(job.scene, job.set, plugins, options, watcher);
+    if (result.summary) watcher.say(summary_text(*result.summary, result.folder));
+    if (result.complete) return 0;
+    watcher.say(
+        fmt::format("hypotrack: {}", result.summary ? kInterruptedLate : kInterruptedEarly));
+    return kInterruptedExitCode;
+  }
+
+  void answer(const WorkerAnswer& answer) {
+    const std::string line = line_of(answer) + "\n";
+    const std::lock_guard<std::mutex> lock(answering_);
+    for (std::size_t sent = 0; sent < line.size();) {
+      const ssize_t size =
+          send(kWorkerSocket, line.data() + sent, line.size() - sent, MSG_NOSIGNAL);
+      if (size < 0 && errno == EINTR) continue;
+      if (size < 0) return;  // nobody listens
+      sent += static_cast<std::size_t>(size);
+    }
+  }
+
+  std::optional<int> gpu_;
+  const CommonOptions& common_;
+  const InterruptGuard interrupt_;
+  std::mutex answering_;
+  std::list<Thread> runs_;
+};
+
+}  // namespace
+
+void add_work_command(const Command& root, CommonOptions& common, int& exit_code) {
+  auto gpu = std::make_shared<std::optional<int>>();
+  const Command command =
+      root.add_command("work", "Make the runs that come through a socket, at the same time");
+  command.hide();
+  command.add("--gpu", gpu.get(), "Number of the GPU", {.check = whole_number(0)});
+  command.on_call([gpu, &common, &exit_code] {
+    Worker(*gpu, common).serve();
+    exit_code = 0;
+  });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/exported.hpp"
+#include "run/crew/gpu_workers.hpp"
+#include "run/crew/process_pool.hpp"
+#include "run/crew/scratch_folder.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Returns the environment that keeps graphics drivers from starting a thread per core in every
+/// run: empty if it says already how many they start.
+std::vector<std::string> driver_variables(int threads);
+
+/// Makes runs at the same time: those of a GPU as threads of a worker process for that GPU, for
+/// processes would take turns on it; the others each in a process of its own.
+class Crew {
+ public:
+  /// Throws OutputError if there is no room for temporary files.
+  explicit Crew(CrewSettings settings);
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
+
+  const CrewSettings& settings() const { return settings_; }
+  /// Starts the workers of the settings' GPUs. Leaves out those that do not answer if
+  /// `all_needed` is false. Returns a text that names the others. Throws DeviceError.
+  std::string start_gpus(bool all_needed);
+  /// Returns true if a further job may start.
+  bool has_room() const { return size() < static_cast<std::size_t>(settings_.jobs); }
+  /// Starts a job, or lets it wait for its GPU. Throws OutputError.
+  void start(Job job);
+  /// Removes and returns a job that has ended, if any. Its log holds what its run said.
+  std::optional<Ended> take_ended();
+  std::size_t size() const { return pool_.size() + workers_.size(); }
+  /// Returns lines for the user on what happened to workers since the last call.
+  std::vector<std::string> take_notes() { return workers_.take_notes(); }
+  /// Tells all jobs to end early, and waits for none.
+  void interrupt();
+  /// Ends all jobs at once, and forgets them.
+  void kill();
+
+ private:
+  CrewSettings settings_;
+  ScratchFolder scratch_;  // outlives the processes
+  ProcessPool pool_;
+  GpuWorkers workers_;
+};
+
+}  // namespace internal
+}  // namespace hypotrack
