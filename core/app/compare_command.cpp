@@ -42,6 +42,7 @@ struct CompareOptions {
   std::string shard = "1/1";
   bool retry_failed = false;
   std::optional<std::string> gpus;
+  std::string pictures = "png";
 };
 
 std::optional<std::size_t> parse_count(std::string_view text) {
@@ -69,6 +70,7 @@ study::Launch launch_of(const CompareOptions& options, const CommonOptions& comm
   for (const auto& folder : common.plugin_path)
     launch.plugin_path.push_back(std::filesystem::absolute(folder));
   launch.time_limit_s = options.time_limit_s;
+  launch.pictures = options.pictures;
   const int cores = core_count();
   launch.jobs = options.jobs > 0 ? options.jobs : cores;
   launch.threads = options.threads > 0 ? options.threads : std::max(1, cores / launch.jobs);
@@ -205,6 +207,9 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
               {.check = whole_number(1)});
   command.add("--gpus", &options->gpus,
               "GPUs to share the runs among: all, auto (those that answer), or numbers as 0,2");
+  command.add("--pictures", &options->pictures,
+              "Format of the study's recordings: png, or bmp, which is larger and read at once",
+              {.show_default = true, .check = one_of({"png", "bmp"})});
   command.add("--shard", &options->shard,
               "Make a part of the runs: i/n, for one of n machines that share the folder");
   command.add("--time-limit", &options->time_limit_s,

@@ -23,6 +23,7 @@ struct SynthOptions {
   SceneOptions scene;
   std::filesystem::path out;
   std::optional<int> frames;
+  std::string format = "png";
 };
 
 int synth(const SynthOptions& options, const CommonOptions& common) {
@@ -30,7 +31,8 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
   const OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
   for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   RecordingWriter writer(*session.scene, session.source->cameras(), session.source->frame_rate(),
-                         session.resolved, options.out);
+                         session.resolved, options.out,
+                         options.format == "bmp" ? PictureFormat::bmp : PictureFormat::png);
   writer.copy_start(session.init);
   InterruptGuard interrupt;
   {
@@ -67,6 +69,9 @@ void add_synth_command(const Command& root, CommonOptions& common, int& exit_cod
               {.required = true, .check = file_name()});
   command.add("--frames", &options->frames, "Stop after this many frames",
               {.check = whole_number(1)});
+  command.add("--format", &options->format,
+              "Pictures: png, or bmp, which is larger and read at once",
+              {.show_default = true, .check = one_of({"png", "bmp"})});
   command.on_call([=, &common, &exit_code] { exit_code = synth(*options, common); });
 }
 

@@ -37,7 +37,8 @@ Subprocess::Command synth_command(const Plan& plan, const PlannedRun& run, const
                                   const RunFolder& folder) {
   auto arguments = scene_arguments("synth", plan.scene_of(plan.cells[run.cell]).file,
                                    select(plan.changes_of(run), true), plan, launch);
-  arguments.insert(arguments.end(), {"--out", (folder.working() / "recording").string()});
+  arguments.insert(arguments.end(), {"--out", (folder.working() / "recording").string(), "--format",
+                                     launch.pictures});
   return work_command(launch, plan, std::move(arguments), folder);
 }
 

@@ -46,8 +46,9 @@ class TrackersTest : public testing::Test {
   }
 
   Tracker tracker(int device) const {
-    Session session(
-        scene_, {.set = {"evaluate.backend=cuda", "evaluate.device=" + std::to_string(device)}});
+    Session session(scene_,
+                    {.set = {"evaluate.backend=cuda", "evaluate.device=" + std::to_string(device)},
+                     .plugin_path = {}});
     return session.tracker(cameras_);
   }
   std::vector<Eigen::VectorXd> states(Tracker& tracker) const {

@@ -148,9 +148,10 @@ void RecordingWriter::add_pictures(const Frame& frame) {
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const View& view = frame.views[i];
     const std::string side = i == 0 ? "left" : "right";
-    const char* const extension = format_ == PictureFormat::jpeg ? ".jpg" : ".png";
+    const char* const lossless = format_ == PictureFormat::bmp ? ".bmp" : ".png";
+    const char* const extension = format_ == PictureFormat::jpeg ? ".jpg" : lossless;
     if (!view.color.empty()) write_image(side, frame.index, view.color, extension);
-    if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask);
+    if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask, lossless);
     if (!view.depth.empty()) {
       write_image(side + "_depth", frame.index, stored_depth(view.depth));
     }

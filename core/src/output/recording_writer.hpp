@@ -20,14 +20,15 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Format of a recording's colour pictures: lossless, or JPEG of quality 95.
-enum class PictureFormat { png, jpeg };
+/// Format of a recording's colour pictures: lossless, JPEG of quality 95, or uncompressed as masks
+/// are then, too.
+enum class PictureFormat { png, jpeg, bmp };
 
 /// Writes the frames of one or two cameras as a folder that the `image_sequence` source reads.
 ///
-/// Images: left_000000.png, right_000000.png (or .jpg), masks (left_mask_000000.png) and depths
-/// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some.
-/// Also times.csv if frames have stamps or are not evenly spaced in time; calibration.yaml;
+/// Images: left_000000.png, right_000000.png (or .jpg, .bmp), masks (left_mask_000000.png) and
+/// depths (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are
+/// some. Also times.csv if frames have stamps or are not evenly spaced in time; calibration.yaml;
 /// scene.yaml, which tracks the recording; source.yaml, the recorded scene; start_NAME, files of
 /// its start. If the truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the
 /// speeds. The folder gets its name when it is complete.

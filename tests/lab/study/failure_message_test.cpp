@@ -37,7 +37,7 @@ TEST_F(FailureMessageTest, NamesTheSignalAfterHypotracksMessage) {
 
 TEST_F(FailureMessageTest, OfAnEmptyOrMissingLogIsTheEndAlone) {
   EXPECT_EQ(message("", kCode66), "ended with exit code 66");
-  EXPECT_EQ(study::failure_message(path("no_such_log.txt"), kCode66), "ended with exit code 66");
+  EXPECT_EQ(failure_message(path("no_such_log.txt"), kCode66), "ended with exit code 66");
 }
 
 TEST_F(FailureMessageTest, ShowsTheBeginningOfALongLine) {

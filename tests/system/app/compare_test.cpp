@@ -119,6 +119,17 @@ TEST_F(CompareTest, RecordedSourcesAreMadeOnceForAllRuns) {
   EXPECT_EQ(table("results.csv", "a"), table("results.csv", "b"));
 }
 
+TEST_F(CompareTest, UncompressedRecordingsGiveTheSameTables) {
+  const std::string text = study() + "recordings: true\nredraw: nothing\n";
+  ASSERT_EQ(compare(text, "a").exit_code, 0);
+  const Outcome outcome = compare(text, "b", {"--pictures", "bmp"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto recording = path("b/recordings") / names_in(path("b/recordings")).front();
+  EXPECT_TRUE(std::filesystem::exists(recording / "recording/left_000000.bmp"));
+  EXPECT_FALSE(std::filesystem::exists(recording / "recording/left_000000.png"));
+  EXPECT_EQ(table("results.csv", "a"), table("results.csv", "b"));
+}
+
 TEST_F(CompareTest, SeedsGetPicturesOfTheirOwnThatAllSettingsShare) {
   const std::string recorded = study() + "recordings: true\n";
   ASSERT_EQ(compare(recorded, "out", {"--shard", "1/2"}).exit_code, 0);
