@@ -178,7 +178,7 @@ TEST_F(WorkerTest, AnErrorIsOfOneRun) {
   give(3, path("absent.yaml").string());
   auto all = answers();
   EXPECT_EQ(all[1].code, 1);
-  EXPECT_THAT(log(1), HasSubstr("hypotrack: frame 1: "));
+  EXPECT_THAT(log(1), HasSubstr("hypotrack: frame "));
   EXPECT_EQ(all[2].code, 0) << log(2);
   EXPECT_EQ(all[3].code, 1);
   EXPECT_THAT(log(3), HasSubstr("hypotrack: "));

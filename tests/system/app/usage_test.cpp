@@ -51,7 +51,6 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
       {"run", "a.yaml", "--frames", "0"},
       {"run", "a.yaml", "--frames", "many"},
       {"run", "a.yaml", "--seed", "-1"},
-      {"run", "a.yaml", "b.yaml"},
       {"run", "a.yaml", "--no-such-option"},
       {"run", "a.yaml", "--out", ""},
       {"synth", "a.yaml"},
