@@ -76,6 +76,7 @@ TEST_F(ReportTest, OfAStudyIsOneFileWithTablesBesideIt) {
   EXPECT_EQ(page.size(), summary.bytes);
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http", "{{title"})
     EXPECT_FALSE(holds(page, outside)) << outside;
+  EXPECT_TRUE(holds(page, "cuda (NVIDIA H200, GPU 1)"));
   const std::string table = read_text(path("study") / "report/tables/table-1-stereo.csv");
   EXPECT_THAT(table,
               testing::StartsWith("particles,generations,runs,samples,failed,mean_error_mm_mean,"));

@@ -183,7 +183,8 @@ void write_run(const fs::path& directory, const RunFixture& run) {
   write_text(directory / "summary.json", Json{{"complete", true},
                                               {"frames", run.frames},
                                               {"fps", 20 + 0.1 * run.seed},
-                                              {"evaluations_per_second", 20480}}
+                                              {"evaluations_per_second", 20480},
+                                              {"backend", "cuda (NVIDIA H200, GPU 1)"}}
                                              .dump());
   if (run.truth_states) write_states(directory / "truth_states.csv", scene, truth);
   if (run.truth_landmarks) {
