@@ -206,7 +206,7 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
   command.add("--threads", &options->threads, "Threads of each run (default: cores / jobs)",
               {.check = whole_number(1)});
   command.add("--gpus", &options->gpus,
-              "GPUs to share the runs among: all, auto (those that answer), or numbers as 0,2");
+              "GPUs to share the runs among: all, auto (all that answer), or numbers as 0,2");
   command.add("--pictures", &options->pictures,
               "Format of the study's recordings: png, or bmp, which is larger and read at once",
               {.show_default = true, .check = one_of({"png", "bmp"})});

@@ -135,7 +135,7 @@ void add_run_command(const Command& root, CommonOptions& common, int& exit_code)
   command.add("--jobs", &given->jobs, "Runs at a time (default: one, or one per GPU of --gpus)",
               {.check = whole_number(1)});
   command.add("--gpus", &given->gpus,
-              "GPUs to share the runs among: all, auto (those that answer), or numbers as 0,2");
+              "GPUs to share the runs among: all, auto (all that answer), or numbers as 0,2");
   add_viewer_options(command, given->viewers);
   command.on_call([=, &common, &exit_code] { exit_code = run(*given, common); });
 }

@@ -97,6 +97,13 @@ TEST_F(LabWithoutDeviceTest, AStudyThatNeedsOneRunsNothing) {
   expect_refusal(compare("title: A GPU\nscenes: {box: {file: box.yaml}}\n"), pieces);
 }
 
+TEST_F(LabWithoutDeviceTest, AStudyThatChoosesGpusRunsNothing) {
+  scene(box_scene(), "box.yaml");
+  const Outcome outcome =
+      compare("title: GPUs\nscenes: {box: {file: box.yaml}}\n", {"--gpus", "all"});
+  expect_refusal(outcome, {"--gpus all: " + cuda::why_no_device()});
+}
+
 TEST_F(LabWithoutDeviceTest, ABenchmarkHasARowForIt) {
   const Outcome outcome =
       run_program({"bench", scene(box_scene()), "--backends", "cpu,cuda", "--frames", "3"});
