@@ -120,7 +120,8 @@ int run(const RunCommand& command, const CommonOptions& common) {
 
 void add_run_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto given = std::make_shared<RunCommand>();
-  const Command command = root.add_command("run", "Track scenes and write the results");
+  const Command command =
+      root.add_command("run", "Track a scene, or several, and write the results");
   command.add("scene", &given->scenes, "Scene files (YAML)", {.required = true});
   add_set_option(command, given->set);
   command.add("--out", &given->options.out,
