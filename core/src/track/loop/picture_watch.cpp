@@ -5,12 +5,11 @@
 
 namespace hypotrack::internal {
 
-PictureWatch::PictureWatch(const Scene& scene, const std::vector<Camera>& cameras,
+PictureWatch::PictureWatch(const std::vector<Camera>& cameras,
                            const std::vector<ObjectiveTerm>& terms, bool is_on) {
   if (!is_on) return;
   checks_.emplace(cameras, joined_use(terms).depth);
   rig_ = RigWatch::make(cameras);
-  if (rig_) model_rows_.emplace(scene);
 }
 
 ViewFault PictureWatch::check(const Frame& frame) {
@@ -33,18 +32,11 @@ void PictureWatch::tell_drifts(FrameSearch& search) const {
   if (checks_) search.follow_brightness(checks_->drifts());
 }
 
-bool PictureWatch::doubts_depth(const Frame& frame, const Solution& solution,
-                                const Eigen::VectorXd& state, const FrameSearch* search) {
+bool PictureWatch::doubts_depth(const Solution& solution, const FrameSearch* search) {
   const ProfiledPart part("check rig");
   if (!rig_) return false;
   if (search && search->photometric().knows())
     rig_->look_at_colors(solution.frame, search->second_view_colors());
-  if (search && solution.status == Status::tracked) {
-    if (const auto motion = model_rows_->next(frame, search->tiles(), search->drawn(state)))
-      rig_->look_at_motion(solution.frame, *motion);
-  } else {
-    model_rows_->skip();
-  }
   return rig_->is_doubtful();
 }
 

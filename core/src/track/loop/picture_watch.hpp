@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,12 +8,10 @@
 #include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
 #include "hypotrack/solution.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
 #include "track/frame_search.hpp"
-#include "track/rig/model_rows.hpp"
 #include "track/rig/rig_watch.hpp"
 
 namespace hypotrack {
@@ -23,10 +20,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Watches pictures and cameras for faults, and makes up for those that allow it.
 class PictureWatch {
  public:
-  /// `is_on`: otherwise it finds nothing but the faults that frames come with. The scene must
-  /// outlive the watch.
-  PictureWatch(const Scene& scene, const std::vector<Camera>& cameras,
-               const std::vector<ObjectiveTerm>& terms, bool is_on);
+  /// `is_on`: otherwise it finds nothing but the faults that frames come with.
+  PictureWatch(const std::vector<Camera>& cameras, const std::vector<ObjectiveTerm>& terms,
+               bool is_on);
 
   /// Returns the worst fault of the next frame. Call it with all frames that have views, in order.
   ViewFault check(const Frame& frame);
@@ -37,10 +33,9 @@ class PictureWatch {
   /// Lets a search follow slow changes of brightness.
   void tell_drifts(FrameSearch& search) const;
 
-  /// Takes the solution of a steadied frame, its state, and the search that found it; null: there
-  /// was none. Returns whether depth may be wrong, for the cameras do not fit their calibration.
-  bool doubts_depth(const Frame& frame, const Solution& solution, const Eigen::VectorXd& state,
-                    const FrameSearch* search);
+  /// Takes the solution of a frame and the search that found it; null: there was none. Returns
+  /// whether depth may be wrong, for the cameras do not fit their calibration.
+  bool doubts_depth(const Solution& solution, const FrameSearch* search);
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_notes();
 
@@ -48,7 +43,6 @@ class PictureWatch {
   std::optional<PictureChecks> checks_;
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;  ///< of a pair of views that are compared
-  std::optional<ModelRows> model_rows_;
 };
 
 }  // namespace internal

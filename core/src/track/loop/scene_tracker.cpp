@@ -34,8 +34,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
                            std::uint64_t seed)
     : loop_(scene, parts, std::move(start), seed),
       terms_(parts.objective),
-      pictures_(scene, parts.cameras, terms_,
-                loop_.settings.check_pictures && look_at_pictures(terms_)),
+      pictures_(parts.cameras, terms_, loop_.settings.check_pictures && look_at_pictures(terms_)),
       judge_(loop_) {
   check_looking(parts, loop_.recovers());
   reserve_evaluations(parts.fixed_lag, judge_.evaluations(), loop_.finder.budget());
@@ -55,8 +54,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
       naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
       // A search in the background changes what this would read.
       const FrameSearch* search = background_.is_running() ? nullptr : &loop_.finder.search();
-      if (pictures_.doubts_depth(steady, solution, loop_.trail.state(), search))
-        call_uncertain(solution);
+      if (pictures_.doubts_depth(solution, search)) call_uncertain(solution);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();

@@ -42,24 +42,37 @@ std::optional<RigWatch> RigWatch::make(const std::vector<Camera>& cameras) {
   return RigWatch(*std::move(pair));
 }
 
+RigWatch::RigWatch(RectifiedPair pair)
+    : pair_(std::move(pair)), timing_(pair_.disparity(kNearest)) {}
+
 void RigWatch::look(const Frame& frame) {
+  constexpr double kGap = 1.5;  // frames
   if (!is_pair(frame)) return;
   const int number = frames_++;
-  if (number > 0 && frame.time > time_) frame_time_ = std::min(frame_time_, frame.time - time_);
+  const double since = number > 0 ? frame.time - time_ : 0;
   time_ = frame.time;
-  if (number < next_) return;
-  next_ += std::clamp(next_, 1, kInterval);
-  constexpr double kRows = 0.06;  // of the height: 20 rows of 360
+  if (since > 0) frame_time_ = std::min(frame_time_, since);
+  if (since > kGap * frame_time_) timing_.interrupt();
+  const bool is_timed = number >= timed_from_;
+  if (number < next_ && !is_timed) return;
+  // The time between the views is told by pictures whose rows fit.
   const GreyPair pictures = pair_.resample(frame);
+  if (number >= next_) {
+    next_ += std::clamp(next_, 1, kInterval);
+    look_at_rows(pictures, frame.index);
+  }
+  if (is_timed)
+    look_at_time(misaligned_ > 0 ? pair_.resample(applied_to(frame)) : pictures, frame.index);
+}
+
+void RigWatch::look_at_rows(const GreyPair& pictures, int frame) {
+  constexpr double kRows = 0.06;  // of the height: 20 rows of 360
+  constexpr double kFar = 1.5;    // pixels from the epipolar lines, as `calibration check` has it
   const MatchRange range{pair_.disparity(kNearest),
                          static_cast<int>(kRows * pictures[0].full.rows)};
   fit_.add(match_rows(pictures, pair_.center(), range));
   estimate_ = fit_.estimate();
-  if (estimate_.matches >= kFewest) judge(frame.index);
-}
-
-void RigWatch::judge(int frame) {
-  constexpr double kFar = 1.5;  // pixels from the epipolar lines, as `calibration check` has it
+  if (estimate_.matches < kFewest) return;
   const double pixels = pair_.scale() * estimate_.row_error;
   const double sure = pixels - kSure * pair_.scale() * estimate_.row_error_sigma;
   const bool said = misaligned_ > 0;
@@ -78,25 +91,26 @@ void RigWatch::judge(int frame) {
       pixels, misaligned_ > kMostRows ? ", and frames count as uncertain" : ""));
 }
 
-void RigWatch::look_at_motion(int frame, const RowMotion& motion) {
-  delay_.add(motion);
-  // Pictures that are paired by their times are half a frame apart at most. A model that both views
-  // pull at shows less than the whole delay.
-  const double least = 0.4 * frame_time_;
-  const auto late = delay_.beyond(least);
-  if (late_ && !late) {
-    const Delay now = delay_.estimate();
-    late_ = !(std::abs(now.seconds) + kSure * now.sigma < least);
-  } else {
-    late_ = late.has_value();
+void RigWatch::look_at_time(const GreyPair& pictures, int frame) {
+  constexpr int kRest = 150, kMostCounted = 60;  // frames
+  // Pictures that are paired by their times are half a frame apart at most.
+  constexpr double kLate = 0.5;
+  timing_.add(pictures);
+  const std::optional<double> late = timing_.late();
+  if (late || timing_.count() >= kMostCounted) {
+    timed_from_ = frames_ + kRest;
+    timing_.restart();
   }
-  if (!late || std::exchange(late_said_, true)) return;
-  const double seconds = std::abs(late->seconds);
+  if (!late) return;
+  is_late_ = std::abs(*late) > kLate;
+  if (!is_late_ || std::exchange(late_said_, true)) return;
+  const double frames = std::abs(*late);
   notes_.push_back(fmt::format(
-      "frame {}: the {} view is late, by {:.0f} ms ({:.1f} frames) or more, judged by models that "
-      "move. Depth is wrong while they move sideways, and frames count as uncertain. Start the "
-      "cameras together, or pair their pictures by time (`offset` of the source)",
-      frame, late->seconds > 0 ? "second" : "first", 1000 * seconds, seconds / frame_time_));
+      "frame {}: the {} view is {:.1f} frames late ({:.0f} ms){}, judged by what moves. Depth is "
+      "wrong while models move sideways, and frames count as uncertain. Start the cameras "
+      "together, or pair their pictures by time (`offset` of the source)",
+      frame, *late > 0 ? "second" : "first", frames, 1000 * frames * frame_time_,
+      frames < ViewTiming::kMostLate ? "" : " or more"));
 }
 
 void RigWatch::look_at_colors(int frame, const ColorMap& colors) {

@@ -10,16 +10,16 @@
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/color_map.hpp"
-#include "track/rig/delay_fit.hpp"
 #include "track/rig/rectified_pair.hpp"
 #include "track/rig/rig_fit.hpp"
+#include "track/rig/view_timing.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Watches whether the pictures of a pair of cameras agree with their calibration, are taken at the
 /// same time and stay as bright. It looks at whole pictures, often at first and then twice a
-/// second.
+/// second, and at what moves until that tells the time between the views, anew after some seconds.
 class RigWatch {
  public:
   /// Returns nothing for cameras that are not nearly parallel: it cannot compare their
@@ -30,21 +30,20 @@ class RigWatch {
   void look(const Frame& frame);
   /// Takes the map from the second view's colours to the first's in a frame that was tracked.
   void look_at_colors(int frame, const ColorMap& colors);
-  /// Takes how models that are tracked move.
-  void look_at_motion(int frame, const RowMotion& motion);
 
   /// Returns a frame with the second view's pictures moved to where the calibration has them.
   Frame applied_to(const Frame& frame) const;
   /// Returns whether depth may be wrong in spite of that.
-  bool is_doubtful() const { return late_ || misaligned_ > kMostRows; }
+  bool is_doubtful() const { return is_late_ || misaligned_ > kMostRows; }
 
   /// Returns what the user should know, each thing once, since the last call.
   std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
   const RigEstimate& estimate() const { return estimate_; }
 
  private:
-  explicit RigWatch(RectifiedPair pair) : pair_(std::move(pair)) {}
-  void judge(int frame);
+  explicit RigWatch(RectifiedPair pair);
+  void look_at_rows(const GreyPair& pictures, int frame);
+  void look_at_time(const GreyPair& pictures, int frame);
 
   static constexpr double kMostRows = 8;  ///< pixels that moving a picture makes up for
 
@@ -52,10 +51,11 @@ class RigWatch {
   RigFit fit_;
   RigEstimate estimate_;
   int frames_ = 0, next_ = 0;  ///< number of frames, the one that is measured next
-  DelayFit delay_;
+  ViewTiming timing_;
+  int timed_from_ = 0;                                           ///< number of a frame: not before
   double time_ = 0;                                              ///< of the last frame
   double frame_time_ = std::numeric_limits<double>::infinity();  ///< shortest, seconds
-  bool late_ = false, late_said_ = false;
+  bool is_late_ = false, late_said_ = false;
   double misaligned_ = 0;  ///< pixels in the second view; 0: not surely
   int color_frames_ = 0;   ///< that taught colours at the start
   double brightness_ = 0;  ///< of the first view against the second, after those

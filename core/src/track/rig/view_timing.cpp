@@ -1,0 +1,187 @@
+#include "track/rig/view_timing.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "hypotrack/median.hpp"
+
+namespace hypotrack::internal {
+namespace {
+
+constexpr int kPieceSide = 12;                                                    // pixels of a piece
+constexpr int kMostLate = ViewTiming::kMostLate, kLags = 2 * kMostLate + 1;  // frames
+constexpr std::size_t kMostPieces = 48;
+constexpr std::size_t kVotes = 12;  // frames that agree
+
+/// How well a piece fits the picture of a frame, and where.
+struct Fit {
+  double likeness = 0;
+  double disparity = 0;  ///< pixels
+};
+using Fits = std::array<Fit, kLags>;  ///< by lag
+
+/// Returns the pieces of a picture that have texture and change from the frame before and to the
+/// one after.
+std::vector<cv::Point> moving_pieces(const cv::Mat1b& before, const cv::Mat1b& now,
+                                     const cv::Mat1b& after) {
+  constexpr double kChange = 5, kTexture = 6;  // of 255
+  std::vector<cv::Point> all;
+  for (int y = 0; y + kPieceSide <= now.rows; y += kPieceSide)
+    for (int x = 0; x + kPieceSide <= now.cols; x += kPieceSide) {
+      const cv::Rect piece(x, y, kPieceSide, kPieceSide);
+      constexpr double kPixels = kPieceSide * kPieceSide;
+      if (cv::norm(now(piece), before(piece), cv::NORM_L1) < kChange * kPixels) continue;
+      if (cv::norm(now(piece), after(piece), cv::NORM_L1) < kChange * kPixels) continue;
+      cv::Scalar mean, deviation;
+      cv::meanStdDev(now(piece), mean, deviation);
+      if (deviation[0] > kTexture) all.emplace_back(x, y);
+    }
+  const std::size_t step = (all.size() + kMostPieces - 1) / kMostPieces;
+  std::vector<cv::Point> some;
+  for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
+  return some;
+}
+
+/// Returns a piece of a picture, row by row, with mean 0 and norm 1.
+Eigen::ArrayXf normalized(const cv::Mat1b& picture, const cv::Point& at) {
+  Eigen::ArrayXf piece(kPieceSide * kPieceSide);
+  for (int y = 0; y < kPieceSide; ++y)
+    for (int x = 0; x < kPieceSide; ++x)
+      piece[y * kPieceSide + x] = static_cast<float>(picture(at.y + y, at.x + x));
+  piece -= piece.mean();
+  return piece / piece.matrix().norm();
+}
+
+/// Returns the highest correlation of a normalised piece with those of some columns of a picture,
+/// in the same rows.
+Fit best_fit(const Eigen::ArrayXf& piece, const cv::Mat1b& columns, int row) {
+  const Eigen::Index width = columns.cols, places = width - kPieceSide + 1;
+  if (places < 1) return {};
+  Eigen::ArrayXf products = Eigen::ArrayXf::Zero(places), sums = products, squares = products;
+  Eigen::ArrayXf line(width), total = Eigen::ArrayXf::Zero(width), total_squares = total;
+  for (int y = 0; y < kPieceSide; ++y) {
+    const std::uint8_t* pixels = columns.ptr(row + y);
+    for (Eigen::Index x = 0; x < width; ++x) line[x] = static_cast<float>(pixels[x]);
+    total += line;
+    total_squares += line.square();
+    for (int x = 0; x < kPieceSide; ++x) products += piece[y * kPieceSide + x] * line.segment(x, places);
+  }
+  for (int x = 0; x < kPieceSide; ++x) {
+    sums += total.segment(x, places);
+    squares += total_squares.segment(x, places);
+  }
+  constexpr float kPixels = kPieceSide * kPieceSide;
+  const Eigen::ArrayXf variances = squares - sums.square() / kPixels;
+  Eigen::Index column = 0;
+  const float likeness = (products / variances.max(kPixels).sqrt()).maxCoeff(&column);
+  return {double{likeness}, static_cast<double>(column)};
+}
+
+/// Compares a piece of a picture with those of the other view.
+Fits fits_of(const cv::Mat1b& now, const cv::Point& at, const std::array<cv::Mat1b, kLags>& others,
+             double disparity) {
+  const Eigen::ArrayXf piece = normalized(now, at);
+  const int first = std::max(0, cvRound(at.x - 1.2 * disparity));
+  const int last = std::min(now.cols, cvRound(at.x + kPieceSide + 0.2 * disparity));
+  Fits out;
+  for (std::size_t lag = 0; lag < kLags; ++lag) {
+    out[lag] = best_fit(piece, others[lag].colRange(first, last), at.y);
+    out[lag].disparity = at.x - first - out[lag].disparity;
+  }
+  return out;
+}
+
+/// What all pieces tell, by lag.
+struct Comparison {
+  std::array<double, kLags> likeness{};   ///< mean
+  std::array<double, kLags> disparity{};  ///< median, against that of the same frame
+};
+
+/// Joins the fits of pieces that both views show. Returns nothing for few of them.
+std::optional<Comparison> joined(const std::vector<Fits>& all) {
+  constexpr std::size_t kFewestPieces = 14;
+  constexpr double kAlike = 0.8;  // correlation
+  Comparison out;
+  std::array<std::vector<double>, kLags> disparities;
+  for (const Fits& fits : all) {
+    if (std::ranges::max(fits, {}, &Fit::likeness).likeness < kAlike) continue;
+    for (std::size_t lag = 0; lag < kLags; ++lag) {
+      out.likeness[lag] += fits[lag].likeness;
+      disparities[lag].push_back(fits[lag].disparity / std::max(fits[kMostLate].disparity, 1.0));
+    }
+  }
+  const std::size_t used = disparities[0].size();
+  if (used < kFewestPieces) return {};
+  for (std::size_t lag = 0; lag < kLags; ++lag) {
+    out.likeness[lag] /= static_cast<double>(used);
+    out.disparity[lag] = upper_median(disparities[lag]);
+  }
+  return out;
+}
+
+/// Returns the lag, to parts of a frame, at which the views are most alike; nothing unless they
+/// clearly are. Models that move sideways by a part of the baseline turn to the second camera the
+/// side that the first one saw before: likeness must gain more than that brings.
+std::optional<double> peak_of(const Comparison& views) {
+  constexpr double kClear = 0.01, kByDirection = 0.2;
+  const auto& [likeness, disparity] = views;
+  const auto at = static_cast<std::size_t>(std::ranges::max_element(likeness) - likeness.begin());
+  double farther = 0;
+  for (std::size_t i = 0; i < kLags; ++i)
+    if (i + 1 < at || i > at + 1) farther = std::max(farther, likeness[i]);
+  if (likeness[at] < farther + kClear) return {};
+  const double least = kClear + kByDirection * std::abs(disparity[at] - 1);
+  if (at != kMostLate && likeness[at] < likeness[kMostLate] + least) return {};
+  const double lag = static_cast<double>(at) - kMostLate;
+  if (at == 0 || at + 1 == kLags) return lag;
+  // It falls about linearly to both sides.
+  const double before = likeness[at - 1], after = likeness[at + 1];
+  const double fall = likeness[at] - std::min(before, after);
+  return fall < kClear ? std::nullopt : std::optional(lag + 0.5 * (after - before) / fall);
+}
+
+}  // namespace
+
+void ViewTiming::add(const GreyPair& pictures) {
+  recent_.push_back({pictures[0].full, pictures[1].full});
+  if (recent_.size() < kLags) return;
+  if (recent_.size() > kLags) recent_.pop_front();
+  const cv::Mat1b& now = recent_[kMostLate].first;
+  const std::vector<cv::Point> pieces =
+      moving_pieces(recent_[kMostLate - 1].first, now, recent_[kMostLate + 1].first);
+  std::array<cv::Mat1b, kLags> others;
+  for (std::size_t lag = 0; lag < kLags; ++lag) others[lag] = recent_[lag].second;
+  std::vector<Fits> all(pieces.size());
+  tbb::parallel_for(std::size_t{0}, pieces.size(),
+                    [&](std::size_t i) { all[i] = fits_of(now, pieces[i], others, disparity_); });
+  const std::optional<Comparison> views = joined(all);
+  const std::optional<double> peak = views ? peak_of(*views) : std::nullopt;
+  if (!peak) return;
+  ++count_;
+  found_.push_back(*peak);
+  if (found_.size() > kVotes) found_.pop_front();
+}
+
+void ViewTiming::restart() {
+  recent_.clear();
+  found_.clear();
+  count_ = 0;
+}
+
+std::optional<double> ViewTiming::late() const {
+  constexpr double kNear = 0.5;         // frames
+  constexpr std::ptrdiff_t kWrong = 2;  // votes: some pieces look like others
+  if (found_.size() < kVotes) return {};
+  const double median = upper_median(std::vector<double>(found_.begin(), found_.end()));
+  const auto is_near = [&](double one) { return std::abs(one - median) <= kNear; };
+  const bool agree = std::ranges::count_if(found_, is_near) + kWrong >= std::ssize(found_);
+  return agree ? std::optional(median) : std::nullopt;
+}
+
+}  // namespace hypotrack::internal

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deque>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "base/exported.hpp"
+#include "track/rig/rectified_pair.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Tells by how many frames the second view of a pair is late. It compares small pieces of the
+/// first picture that move with the same rows of the second view's pictures of several frames: they
+/// are most alike in the picture of their moment.
+class ViewTiming {
+ public:
+  static constexpr int kMostLate = 2;  ///< frames: it cannot tell longer delays apart
+
+  /// `disparity`: the largest one, in pixels of the small pictures.
+  explicit ViewTiming(double disparity) : disparity_(disparity) {}
+
+  /// Takes the pictures of the next frame.
+  void add(const GreyPair& pictures);
+  /// Forgets the pictures: the next frame does not follow them.
+  void interrupt() { recent_.clear(); }
+  /// Forgets what the frames so far told, too.
+  void restart();
+
+  /// Returns by how many frames the second view is late, negative for the first, if the last frames
+  /// that told something agree.
+  std::optional<double> late() const;
+  /// Returns the number of frames that told something.
+  int count() const { return count_; }
+
+ private:
+  struct Pictures {
+    cv::Mat1b first, second;
+  };
+
+  double disparity_;
+  std::deque<Pictures> recent_;
+  std::deque<double> found_;  ///< frames, by the last ones that told something
+  int count_ = 0;
+};
+
+}  // namespace internal
+}  // namespace hypotrack
