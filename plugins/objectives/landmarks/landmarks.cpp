@@ -87,14 +87,8 @@ void Landmarks::check_sides(const Observation& observation, const std::vector<st
     const bool is_other = std::ranges::all_of(views, [&](std::size_t view) {
       return finder_.saw_other_side(observation, view, models[h]);
     });
-    if (!hands_[h].side.add(observation.frame, is_other)) continue;
-    const auto [own, seen, type] = hands_[h].model.right
-                                       ? std::tuple("right", "left", "mirrored_hand")
-                                       : std::tuple("left", "right", "hand");
-    log_.warning(fmt::format(
-        "the detector sees a {} hand where '{}' is, a {} one. Is the model that of the other hand "
-        "(such as `type: {}`), or are the pictures mirrored?",
-        seen, hands_[h].item->name, own, type));
+    if (hands_[h].side.add(observation.frame, is_other))
+      log_.warning(hands::wrong_side_text(hands_[h].item->name, hands_[h].model.right));
   }
 }
 

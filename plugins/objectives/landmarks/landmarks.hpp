@@ -54,7 +54,7 @@ class Landmarks : public Objective, public ResidualTerm {
   struct Hand {
     const Scene::Item* item;
     HandModel model;
-    SideCheck side = {};
+    hands::SideCheck side{8};
   };
 
   /// Returns each hand at the start of the search and in the last frame.

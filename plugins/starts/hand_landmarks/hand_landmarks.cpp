@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hand_detector.hpp"
@@ -12,6 +13,7 @@
 #include "hypotrack/landmark_fit.hpp"
 #include "hypotrack/plugin.hpp"
 #include "other_view.hpp"
+#include "side_check.hpp"
 
 namespace hypotrack::hands {
 namespace {
@@ -36,7 +38,8 @@ class HandLandmarks final : public Start {
     }
   };
   /// Reads the networks if a model of the scene is a hand.
-  HandLandmarks(const Params& params, PluginContext& context) {
+  HandLandmarks(const Params& params, PluginContext& context)
+      : sides_(context.scene().items().size(), SideCheck(kEnough)), log_(context.log()) {
     for (const Scene::Item& item : context.scene().items()) {
       models_.push_back(hand_model(*item.model));
       if (models_.back() && !detector_)
@@ -54,6 +57,7 @@ class HandLandmarks final : public Start {
     const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return;
     look_at(*context.frame, context.cameras, context.search != nullptr);
+    check_side(*context.frame, item.name, model);
     // The likeliest hand of the model's side first; a hand of the other side may be this one, too.
     std::vector<HandPair> pairs = pairs_;
     const auto other_side = [&](const HandPair& pair) { return (pair.right > 0.5) != hand->right; };
@@ -86,6 +90,7 @@ class HandLandmarks final : public Start {
     bool operator==(const Seen&) const = default;
   };
   static constexpr double kLeastLikely = 0.1, kSurely = 0.7;  // probabilities of the model's side
+  static constexpr int kEnough = 4;  // frames of the other side: there is a second between most
 
   /// Detects the hands of a frame, once; small ones everywhere only if `thorough`.
   void look_at(const Frame& frame, const std::vector<Camera>& cameras, bool thorough) {
@@ -109,6 +114,20 @@ class HandLandmarks final : public Start {
     pairs_ = pair_hands(pair, first, second);
   }
 
+  /// Warns if all hands that were seen lately are of the other side, of which the scene has none.
+  void check_side(const Frame& frame, const std::string& name, std::size_t model) {
+    const bool right = models_[model]->right;
+    const auto is_other = [&](const HandPair& pair) {
+      return (right ? pair.right : 1 - pair.right) < kLeastLikely;
+    };
+    const auto is_of_other = [&](const std::optional<HandModel>& hand) {
+      return hand && hand->right != right;
+    };
+    if (pairs_.empty() || std::ranges::any_of(models_, is_of_other)) return;
+    if (sides_[model].add(frame.index, std::ranges::all_of(pairs_, is_other)))
+      log_.warning(wrong_side_text(name, right));
+  }
+
   /// Fits a hand to triangulated landmarks.
   static Eigen::VectorXd fitted(const Model& model, const HandModel& hand, const HandPair& pair) {
     std::vector<double> rest;
@@ -123,6 +142,8 @@ class HandLandmarks final : public Start {
 
   std::vector<std::optional<HandModel>> models_;  ///< by model; nothing: it is no hand
   std::optional<HandDetector> detector_;          ///< nothing: the scene has no hand
+  std::vector<SideCheck> sides_;                  ///< by model
+  PluginLog log_;
   Seen seen_;
   std::vector<HandPair> pairs_;  ///< in the frame seen last
 };

@@ -93,8 +93,7 @@ void RigWatch::look_at_rows(const GreyPair& pictures, int frame) {
 
 void RigWatch::look_at_time(const GreyPair& pictures, int frame) {
   constexpr int kRest = 150, kMostCounted = 60;  // frames
-  // Pictures that are paired by their times are half a frame apart at most.
-  constexpr double kLate = 0.5;
+  constexpr double kLate = 0.6;  // cameras without a common trigger are half a frame apart at most
   timing_.add(pictures);
   const std::optional<double> late = timing_.late();
   if (late || timing_.count() >= kMostCounted) {

@@ -3,6 +3,7 @@
 
 #include "hypotrack/plugin.hpp"
 #include "pictures.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -25,8 +26,9 @@ struct Search {
   }
 
   Scene scene;
-  std::unique_ptr<Start> start =
-      PluginLoader().make<Start>(ConfigNode::parse("type: hand_landmarks", "test"), &scene);
+  std::shared_ptr<PluginNotes> notes = std::make_shared<PluginNotes>();
+  std::unique_ptr<Start> start = PluginLoader().make<Start>(
+      ConfigNode::parse("type: hand_landmarks", "test"), &scene, {}, nullptr, notes);
 };
 
 double mean_error(const Eigen::Matrix3Xd& found, const Eigen::Matrix3Xd& truth) {
@@ -44,6 +46,23 @@ TEST(HandLandmarks, ProposeAPoseNearARenderedHand) {
   const Eigen::Matrix3Xd found = search.first(pictures);
   ASSERT_GT(found.cols(), 0);
   EXPECT_LT(mean_error(found, pictures.frame.truth->landmarks), 0.025);
+}
+
+TEST(HandLandmarks, AModelOfTheOtherSideIsSaidOnce) {
+  HYPOTRACK_NEEDS_HAND_DETECTOR();
+  test::HandPictures pictures = test::rendered_hand();
+  for (const std::string model : {"hand", "mirrored_hand"}) {
+    const Search search("type: " + model);
+    for (int frame = 0; frame < 6; ++frame) {
+      pictures.frame.index = frame;
+      search.start->find({search.scene, pictures.cameras, &pictures.frame}, 0,
+                         [](const Eigen::VectorXd&) { return true; });
+    }
+    const std::vector<PluginNote> said = search.notes->all();
+    ASSERT_EQ(said.size(), model == "mirrored_hand" ? 1 : 0) << model;
+    for (const PluginNote& note : said)
+      EXPECT_NE(note.text.find("a right hand where 'hand' is"), std::string::npos) << note.text;
+  }
 }
 
 TEST(HandLandmarks, TellHowLargeARenderedHandIs) {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+namespace hypotrack::hands {
+
+/// Tells that a model is of the wrong side: where it is, a hand of the other side is seen in many
+/// frames in a row.
+class SideCheck {
+ public:
+  /// `enough`: frames that make it sure; single ones are mistaken, mostly those of fists.
+  explicit SideCheck(int enough) : enough_(enough) {}
+
+  /// Counts a frame, once. Returns true in the frame that makes it sure, and never again.
+  bool add(int frame, bool shows_other_side) {
+    if (frame == last_) return false;
+    last_ = frame;
+    in_a_row_ = shows_other_side ? in_a_row_ + 1 : 0;
+    if (told_ || in_a_row_ < enough_) return false;
+    told_ = true;
+    return true;
+  }
+
+ private:
+  int enough_;
+  std::optional<int> last_;
+  int in_a_row_ = 0;
+  bool told_ = false;
+};
+
+/// Returns what the user should know of a model of a side, right or left, that is of the wrong one.
+inline std::string wrong_side_text(const std::string& model, bool right) {
+  return fmt::format(
+      "the detector sees a {} hand where '{}' is, a {} one. Is the model that of the other hand "
+      "(such as `type: {}`), or are the pictures mirrored?",
+      right ? "left" : "right", model, right ? "right" : "left", right ? "mirrored_hand" : "hand");
+}
+
+}  // namespace hypotrack::hands
