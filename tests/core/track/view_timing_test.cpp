@@ -39,11 +39,11 @@ class ViewTimingTest : public ::testing::Test {
     out.time = i / double{kSecond};
     return out;
   }
-  /// Returns by how much a second of frames says that the second view is late.
-  std::optional<double> found(double late, const Motion& motion) const {
+  /// Returns by how much some frames say that the second view is late.
+  std::optional<double> found(double late, const Motion& motion, int frames = kSecond) const {
     const RectifiedPair pair = RectifiedPair::make({pair_.cameras[0], pair_.cameras[1]}).value();
     ViewTiming timing(pair.disparity(0.25));
-    for (int i = 0; i < kSecond; ++i) timing.add(pair.resample(late_frame(i, late, motion)));
+    for (int i = 0; i < frames; ++i) timing.add(pair.resample(late_frame(i, late, motion)));
     return timing.late();
   }
 
@@ -56,6 +56,12 @@ TEST_F(ViewTimingTest, TellsByHowManyFramesEitherViewIsLate) {
     ASSERT_TRUE(told) << late;
     EXPECT_NEAR(*told, late, 0.2);
   }
+}
+
+TEST_F(ViewTimingTest, TellsLateViewsOfFastMotionAfterAFewFrames) {
+  constexpr int kFew = 8;
+  EXPECT_NEAR(found(1, {}, kFew).value_or(0), 1, 0.2);
+  EXPECT_FALSE(found(0, {}, kFew));
 }
 
 TEST_F(ViewTimingTest, TellsHalfAFrame) {

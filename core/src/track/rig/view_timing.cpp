@@ -14,7 +14,7 @@
 namespace hypotrack::internal {
 namespace {
 
-constexpr int kPieceSide = 12;                                                    // pixels of a piece
+constexpr int kPieceSide = 12;                                               // pixels of a piece
 constexpr int kMostLate = ViewTiming::kMostLate, kLags = 2 * kMostLate + 1;  // frames
 constexpr std::size_t kMostPieces = 48;
 constexpr std::size_t kVotes = 12;  // frames that agree
@@ -70,7 +70,8 @@ Fit best_fit(const Eigen::ArrayXf& piece, const cv::Mat1b& columns, int row) {
     for (Eigen::Index x = 0; x < width; ++x) line[x] = static_cast<float>(pixels[x]);
     total += line;
     total_squares += line.square();
-    for (int x = 0; x < kPieceSide; ++x) products += piece[y * kPieceSide + x] * line.segment(x, places);
+    for (int x = 0; x < kPieceSide; ++x)
+      products += piece[y * kPieceSide + x] * line.segment(x, places);
   }
   for (int x = 0; x < kPieceSide; ++x) {
     sums += total.segment(x, places);
@@ -125,10 +126,11 @@ std::optional<Comparison> joined(const std::vector<Fits>& all) {
   return out;
 }
 
-/// Returns the lag, to parts of a frame, at which the views are most alike; nothing unless they
-/// clearly are. Models that move sideways by a part of the baseline turn to the second camera the
-/// side that the first one saw before: likeness must gain more than that brings.
-std::optional<double> peak_of(const Comparison& views) {
+/// Returns the lag at which the views are most alike, to parts of a frame, and how much more alike
+/// than in pictures of the same frame; nothing unless they clearly are. Models that move sideways
+/// by a part of the baseline turn to the second camera the side that the first one saw before:
+/// likeness must gain more than that brings.
+std::optional<ViewTiming::Peak> peak_of(const Comparison& views) {
   constexpr double kClear = 0.01, kByDirection = 0.2;
   const auto& [likeness, disparity] = views;
   const auto at = static_cast<std::size_t>(std::ranges::max_element(likeness) - likeness.begin());
@@ -136,14 +138,16 @@ std::optional<double> peak_of(const Comparison& views) {
   for (std::size_t i = 0; i < kLags; ++i)
     if (i + 1 < at || i > at + 1) farther = std::max(farther, likeness[i]);
   if (likeness[at] < farther + kClear) return {};
-  const double least = kClear + kByDirection * std::abs(disparity[at] - 1);
-  if (at != kMostLate && likeness[at] < likeness[kMostLate] + least) return {};
+  const double gain =
+      likeness[at] - likeness[kMostLate] - kByDirection * std::abs(disparity[at] - 1);
+  if (at != kMostLate && gain < kClear) return {};
   const double lag = static_cast<double>(at) - kMostLate;
-  if (at == 0 || at + 1 == kLags) return lag;
+  if (at == 0 || at + 1 == kLags) return ViewTiming::Peak{lag, gain};
   // It falls about linearly to both sides.
   const double before = likeness[at - 1], after = likeness[at + 1];
   const double fall = likeness[at] - std::min(before, after);
-  return fall < kClear ? std::nullopt : std::optional(lag + 0.5 * (after - before) / fall);
+  if (fall < kClear) return {};
+  return ViewTiming::Peak{lag + 0.5 * (after - before) / fall, gain};
 }
 
 }  // namespace
@@ -161,7 +165,7 @@ void ViewTiming::add(const GreyPair& pictures) {
   tbb::parallel_for(std::size_t{0}, pieces.size(),
                     [&](std::size_t i) { all[i] = fits_of(now, pieces[i], others, disparity_); });
   const std::optional<Comparison> views = joined(all);
-  const std::optional<double> peak = views ? peak_of(*views) : std::nullopt;
+  const std::optional<Peak> peak = views ? peak_of(*views) : std::nullopt;
   if (!peak) return;
   ++count_;
   found_.push_back(*peak);
@@ -175,13 +179,24 @@ void ViewTiming::restart() {
 }
 
 std::optional<double> ViewTiming::late() const {
-  constexpr double kNear = 0.5;         // frames
-  constexpr std::ptrdiff_t kWrong = 2;  // votes: some pieces look like others
-  if (found_.size() < kVotes) return {};
-  const double median = upper_median(std::vector<double>(found_.begin(), found_.end()));
+  constexpr std::size_t kFew = 3;
+  constexpr double kMuch = 0.06;  // frames of one moment never gained so much
+  constexpr std::size_t kWrong = 2;
+  const auto gains_much = [](const Peak& one) { return one.gain > kMuch; };
+  if (found_.size() >= kFew && std::all_of(found_.end() - kFew, found_.end(), gains_much))
+    if (const auto few = agreed(kFew, 0)) return few;
+  return found_.size() < kVotes ? std::nullopt : agreed(kVotes, kWrong);
+}
+
+std::optional<double> ViewTiming::agreed(std::size_t count, std::size_t wrong) const {
+  constexpr double kNear = 0.5;  // frames
+  std::vector<double> lags;
+  for (std::size_t i = found_.size() - count; i < found_.size(); ++i)
+    lags.push_back(found_[i].frames);
+  const double median = upper_median(lags);
   const auto is_near = [&](double one) { return std::abs(one - median) <= kNear; };
-  const bool agree = std::ranges::count_if(found_, is_near) + kWrong >= std::ssize(found_);
-  return agree ? std::optional(median) : std::nullopt;
+  const auto near = static_cast<std::size_t>(std::ranges::count_if(lags, is_near));
+  return near + wrong >= count ? std::optional(median) : std::nullopt;
 }
 
 }  // namespace hypotrack::internal

@@ -17,6 +17,12 @@ class ViewTiming {
  public:
   static constexpr int kMostLate = 2;  ///< frames: it cannot tell longer delays apart
 
+  /// What one frame tells.
+  struct Peak {
+    double frames = 0;  ///< by which the second view is late
+    double gain = 0;    ///< likeness of the views then, above that without a delay
+  };
+
   /// `disparity`: the largest one, in pixels of the small pictures.
   explicit ViewTiming(double disparity) : disparity_(disparity) {}
 
@@ -38,9 +44,12 @@ class ViewTiming {
     cv::Mat1b first, second;
   };
 
+  /// Returns the median of the last frames that told something, if all but some are near it.
+  std::optional<double> agreed(std::size_t count, std::size_t wrong) const;
+
   double disparity_;
   std::deque<Pictures> recent_;
-  std::deque<double> found_;  ///< frames, by the last ones that told something
+  std::deque<Peak> found_;  ///< by the last frames that told something
   int count_ = 0;
 };
 
