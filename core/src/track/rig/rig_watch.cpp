@@ -53,15 +53,15 @@ void RigWatch::look(const Frame& frame) {
   time_ = frame.time;
   if (since > 0) frame_time_ = std::min(frame_time_, since);
   if (since > kGap * frame_time_) timing_.interrupt();
-  const bool is_timed = number >= timed_from_;
-  if (number < next_ && !is_timed) return;
+  const bool looks = number >= timed_from_;
+  if (number < next_ && !looks) return;
   // The time between the views is told by pictures whose rows fit.
   const GreyPair pictures = pair_.resample(frame);
   if (number >= next_) {
     next_ += std::clamp(next_, 1, kInterval);
     look_at_rows(pictures, frame.index);
   }
-  if (is_timed)
+  if (looks)
     look_at_time(misaligned_ > 0 ? pair_.resample(applied_to(frame)) : pictures, frame.index);
 }
 
@@ -92,11 +92,12 @@ void RigWatch::look_at_rows(const GreyPair& pictures, int frame) {
 }
 
 void RigWatch::look_at_time(const GreyPair& pictures, int frame) {
-  constexpr int kRest = 150, kMostCounted = 60;  // frames
+  constexpr int kRest = 150, kMost = 60;  // frames
   constexpr double kLate = 0.6;  // cameras without a common trigger are half a frame apart at most
   timing_.add(pictures);
   const std::optional<double> late = timing_.late();
-  if (late || timing_.count() >= kMostCounted) {
+  is_timed_ = is_timed_ || late;
+  if (late || timing_.told() >= kMost || (is_timed_ && timing_.taken() >= kMost)) {
     timed_from_ = frames_ + kRest;
     timing_.restart();
   }

@@ -153,6 +153,7 @@ std::optional<ViewTiming::Peak> peak_of(const Comparison& views) {
 }  // namespace
 
 void ViewTiming::add(const GreyPair& pictures) {
+  ++taken_;
   recent_.push_back({pictures[0].full, pictures[1].full});
   if (recent_.size() < kLags) return;
   if (recent_.size() > kLags) recent_.pop_front();
@@ -167,7 +168,7 @@ void ViewTiming::add(const GreyPair& pictures) {
   const std::optional<Comparison> views = joined(all);
   const std::optional<Peak> peak = views ? peak_of(*views) : std::nullopt;
   if (!peak) return;
-  ++count_;
+  ++told_;
   found_.push_back(*peak);
   if (found_.size() > kVotes) found_.pop_front();
 }
@@ -175,7 +176,7 @@ void ViewTiming::add(const GreyPair& pictures) {
 void ViewTiming::restart() {
   recent_.clear();
   found_.clear();
-  count_ = 0;
+  taken_ = told_ = 0;
 }
 
 std::optional<double> ViewTiming::late() const {

@@ -36,8 +36,9 @@ class ViewTiming {
   /// Returns by how many frames the second view is late, negative for the first, if the last frames
   /// that told something agree.
   std::optional<double> late() const;
-  /// Returns the number of frames that told something.
-  int count() const { return count_; }
+  /// Returns the number of frames since restart(), and of those that told something.
+  int taken() const { return taken_; }
+  int told() const { return told_; }
 
  private:
   struct Pictures {
@@ -50,7 +51,7 @@ class ViewTiming {
   double disparity_;
   std::deque<Pictures> recent_;
   std::deque<Peak> found_;  ///< by the last frames that told something
-  int count_ = 0;
+  int taken_ = 0, told_ = 0;
 };
 
 }  // namespace internal
