@@ -202,24 +202,6 @@ ColorSamples ColorSampler::Impl::take(const LookUp& here, const LookUp& there, s
   return samples;
 }
 
-std::vector<PointPair> ColorSampler::pairs(std::span<const Resampler> cameras,
-                                           std::size_t other) const {
-  const TileIntrinsics here = intrinsics(impl_->grid.views[0].camera);
-  const TileIntrinsics there = intrinsics(impl_->grid.views[other].camera);
-  const auto point = [&](std::size_t view, const TileIntrinsics& tile, float x, float y) {
-    const ImagePoint p = image_point(cameras[view].lens(), tile, x, y);
-    return Eigen::Vector2f(p.x, p.y);
-  };
-  std::vector<PointPair> out;
-  impl_->for_pairs(other, [&](int x, int y, const scalar::Mapped<float>& at) {
-    const Eigen::Vector2f second = point(other, there, at.u, at.v);
-    out.push_back({point(0, here, static_cast<float>(x), static_cast<float>(y)), second,
-                   (point(other, there, at.u + 1, at.v) - second) * there.fx,
-                   (point(other, there, at.u, at.v + 1) - second) * there.fy});
-  });
-  return out;
-}
-
 ColorSampler::NormalGrid ColorSampler::normals(std::size_t view) const {
   const DepthTile& tile = impl_->drawer.tiles()[view];
   NormalGrid grid{cv::Mat::zeros(kGrid, kGrid, CV_8U), {}};

@@ -25,12 +25,6 @@ struct ColorSamples {
   std::size_t size() const { return first[0].size(); }
 };
 
-/// Where two views see one surface point, in pixels of their images.
-struct PointPair {
-  Eigen::Vector2f first, other;
-  Eigen::Vector2f along, across;  ///< motion of `other` per unit of x/z and of y/z of its tile
-};
-
 /// Samples the colours of a posed scene where two views see the same surface. Reads the images
 /// themselves, so that the result does not depend on the backend, or tiles that were kept.
 class ColorSampler {
@@ -50,9 +44,6 @@ class ColorSampler {
                     bool with_normals = false) const;
   /// Samples tiles instead of images. They must be those whose cameras draw() was given.
   ColorSamples take(const Observation& tiles, std::size_t other, bool with_normals = false) const;
-
-  /// Returns where the first view and another's image show the points that take() samples.
-  std::vector<PointPair> pairs(std::span<const Resampler> cameras, std::size_t other) const;
 
   /// Surface normals of a drawn view.
   struct NormalGrid {
