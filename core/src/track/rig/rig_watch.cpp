@@ -8,6 +8,9 @@
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 #include <utility>
+#include <vector>
+
+#include "hypotrack/median.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -46,13 +49,13 @@ RigWatch::RigWatch(RectifiedPair pair)
     : pair_(std::move(pair)), timing_(pair_.disparity(kNearest)) {}
 
 void RigWatch::look(const Frame& frame) {
-  constexpr double kGap = 1.5;  // frames
+  constexpr std::size_t kRecent = 15;  // frames
   if (!is_pair(frame)) return;
   const int number = frames_++;
   const double since = number > 0 ? frame.time - time_ : 0;
   time_ = frame.time;
-  if (since > 0) frame_time_ = std::min(frame_time_, since);
-  if (since > kGap * frame_time_) timing_.interrupt();
+  if (since > 0) intervals_.push_back(since);
+  if (intervals_.size() > kRecent) intervals_.pop_front();
   const bool looks = number >= timed_from_;
   if (number < next_ && !looks) return;
   // The time between the views is told by pictures whose rows fit.
@@ -105,11 +108,16 @@ void RigWatch::look_at_time(const GreyPair& pictures, int frame) {
   is_late_ = std::abs(*late) > kLate;
   if (!is_late_ || std::exchange(late_said_, true)) return;
   const double frames = std::abs(*late);
+  std::string milliseconds;
+  if (!intervals_.empty()) {
+    const double interval = upper_median(std::vector(intervals_.begin(), intervals_.end()));
+    milliseconds = fmt::format(" ({:.0f} ms)", 1000 * frames * interval);
+  }
   notes_.push_back(fmt::format(
-      "frame {}: the {} view is {:.1f} frames late ({:.0f} ms){}, judged by what moves. Depth is "
+      "frame {}: the {} view is {:.1f} frames late{}{}, judged by what moves. Depth is "
       "wrong while models move sideways, and frames count as uncertain. Start the cameras "
       "together, or pair their pictures by time (`offset` of the source)",
-      frame, *late > 0 ? "second" : "first", frames, 1000 * frames * frame_time_,
+      frame, *late > 0 ? "second" : "first", frames, milliseconds,
       frames < ViewTiming::kMostLate ? "" : " or more"));
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <limits>
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -52,10 +52,10 @@ class RigWatch {
   RigEstimate estimate_;
   int frames_ = 0, next_ = 0;  ///< number of frames, the one that is measured next
   ViewTiming timing_;
-  int timed_from_ = 0;                                           ///< number of a frame: not before
-  double time_ = 0;                                              ///< of the last frame
-  double frame_time_ = std::numeric_limits<double>::infinity();  ///< shortest, seconds
-  bool is_timed_ = false;  ///< the time between the views was told before
+  int timed_from_ = 0;            ///< number of a frame: not before
+  double time_ = 0;               ///< of the last frame
+  std::deque<double> intervals_;  ///< between recent frames, seconds
+  bool is_timed_ = false;         ///< the time between the views was told before
   bool is_late_ = false, late_said_ = false;
   double misaligned_ = 0;  ///< pixels in the second view; 0: not surely
   int color_frames_ = 0;   ///< that taught colours at the start

@@ -28,9 +28,7 @@ class ViewTiming {
 
   /// Takes the pictures of the next frame.
   void add(const GreyPair& pictures);
-  /// Forgets the pictures: the next frame does not follow them.
-  void interrupt() { recent_.clear(); }
-  /// Forgets what the frames so far told, too.
+  /// Forgets the pictures and what they told.
   void restart();
 
   /// Returns by how many frames the second view is late, negative for the first, if the last frames
