@@ -14,6 +14,8 @@ class SideCheck {
   /// `enough`: frames that make it sure; single ones are mistaken, mostly those of fists.
   explicit SideCheck(int enough) : enough_(enough) {}
 
+  /// Ends the check: a hand of the model's side was seen.
+  void settle() { told_ = true; }
   /// Counts a frame, once. Returns true in the frame that makes it sure, and never again.
   bool add(int frame, bool shows_other_side) {
     if (frame == last_) return false;
@@ -31,12 +33,17 @@ class SideCheck {
   bool told_ = false;
 };
 
-/// Returns what the user should know of a model of a side, right or left, that is of the wrong one.
-inline std::string wrong_side_text(const std::string& model, bool right) {
+/// Returns what the user should know of a right or left model that is of the wrong side: a hand of
+/// the other side is where it is, or else all hands in the pictures are of that side.
+inline std::string wrong_side_text(const std::string& model, bool right, bool is_there) {
+  const std::string own = right ? "right" : "left", other = right ? "left" : "right";
+  const std::string sight =
+      is_there ? fmt::format("a {} hand where '{}' is, a {} one", other, model, own)
+               : fmt::format("{} hands only, but '{}' is a {} one", other, model, own);
   return fmt::format(
-      "the detector sees a {} hand where '{}' is, a {} one. Is the model that of the other hand "
-      "(such as `type: {}`), or are the pictures mirrored?",
-      right ? "left" : "right", model, right ? "right" : "left", right ? "mirrored_hand" : "hand");
+      "the detector sees {}. Is the model that of the other hand (such as `type: {}`), or are the "
+      "pictures mirrored?",
+      sight, right ? "mirrored_hand" : "hand");
 }
 
 }  // namespace hypotrack::hands

@@ -88,7 +88,7 @@ void Landmarks::check_sides(const Observation& observation, const std::vector<st
       return finder_.saw_other_side(observation, view, models[h]);
     });
     if (hands_[h].side.add(observation.frame, is_other))
-      log_.warning(hands::wrong_side_text(hands_[h].item->name, hands_[h].model.right));
+      log_.warning(hands::wrong_side_text(hands_[h].item->name, hands_[h].model.right, true));
   }
 }
 

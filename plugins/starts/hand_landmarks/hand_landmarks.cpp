@@ -63,8 +63,7 @@ class HandLandmarks final : public Start {
     const auto other_side = [&](const HandPair& pair) { return (pair.right > 0.5) != hand->right; };
     std::ranges::stable_sort(pairs, {}, other_side);
     for (const HandPair& pair : pairs) {
-      const double likely = hand->right ? pair.right : 1 - pair.right;
-      if (likely < (context.sure_only ? kSurely : kLeastLikely)) return;
+      if (likely(pair, *hand) < (context.sure_only ? kSurely : kLeastLikely)) return;
       if (!take(fitted(*item.model, *hand, pair))) return;
     }
   }
@@ -73,10 +72,8 @@ class HandLandmarks final : public Start {
     const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return std::nullopt;
     look_at(*context.frame, context.cameras, false);
-    const auto is_surely_this = [&](const HandPair& pair) {
-      return (hand->right ? pair.right : 1 - pair.right) >= kSurely;
-    };
-    const auto pair = std::ranges::find_if(pairs_, is_surely_this);
+    const auto pair = std::ranges::find_if(
+        pairs_, [&](const HandPair& one) { return likely(one, *hand) >= kSurely; });
     if (pair == pairs_.end()) return std::nullopt;
     return relative_size(*context.scene.items().at(model).model, *hand, *pair);
   }
@@ -91,6 +88,11 @@ class HandLandmarks final : public Start {
   };
   static constexpr double kLeastLikely = 0.1, kSurely = 0.7;  // probabilities of the model's side
   static constexpr int kEnough = 4;  // frames of the other side: there is a second between most
+
+  /// Returns the probability that a hand is of the model's side.
+  static double likely(const HandPair& pair, const HandModel& model) {
+    return model.right ? pair.right : 1 - pair.right;
+  }
 
   /// Detects the hands of a frame, once; small ones everywhere only if `thorough`.
   void look_at(const Frame& frame, const std::vector<Camera>& cameras, bool thorough) {
@@ -114,18 +116,18 @@ class HandLandmarks final : public Start {
     pairs_ = pair_hands(pair, first, second);
   }
 
-  /// Warns if all hands that were seen lately are of the other side, of which the scene has none.
+  /// Warns if all hands that were ever seen are of the other side, of which the scene has none.
   void check_side(const Frame& frame, const std::string& name, std::size_t model) {
-    const bool right = models_[model]->right;
-    const auto is_other = [&](const HandPair& pair) {
-      return (right ? pair.right : 1 - pair.right) < kLeastLikely;
-    };
+    const HandModel& own = *models_[model];
     const auto is_of_other = [&](const std::optional<HandModel>& hand) {
-      return hand && hand->right != right;
+      return hand && hand->right != own.right;
     };
     if (pairs_.empty() || std::ranges::any_of(models_, is_of_other)) return;
-    if (sides_[model].add(frame.index, std::ranges::all_of(pairs_, is_other)))
-      log_.warning(wrong_side_text(name, right));
+    double most = 0;
+    for (const HandPair& pair : pairs_) most = std::max(most, likely(pair, own));
+    if (most >= kSurely) sides_[model].settle();
+    if (sides_[model].add(frame.index, most < kLeastLikely))
+      log_.warning(wrong_side_text(name, own.right, false));
   }
 
   /// Fits a hand to triangulated landmarks.

@@ -61,7 +61,8 @@ TEST(HandLandmarks, AModelOfTheOtherSideIsSaidOnce) {
     const std::vector<PluginNote> said = search.notes->all();
     ASSERT_EQ(said.size(), model == "mirrored_hand" ? 1 : 0) << model;
     for (const PluginNote& note : said)
-      EXPECT_NE(note.text.find("a right hand where 'hand' is"), std::string::npos) << note.text;
+      EXPECT_NE(note.text.find("right hands only, but 'hand' is a left one"), std::string::npos)
+          << note.text;
   }
 }
 
