@@ -66,8 +66,8 @@ class CpuRenderer : public HypothesisRenderer {
   }
 
   int threads_;
-  bool views_at_once_ = false;  // a small batch leaves threads without work
-  tbb::global_control limit_;  // allows more threads than cores
+  bool views_at_once_ = false;  // few states leave threads without work
+  tbb::global_control limit_;   // allows more threads than cores
   tbb::task_arena arena_;
   std::unique_ptr<const ScenePlan> plan_;
   FrameProjection frame_;

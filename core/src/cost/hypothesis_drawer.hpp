@@ -36,7 +36,7 @@ class HypothesisDrawer {
 
   /// Draws a normalised state; returns its depth in every view, valid until the next call.
   std::span<const DepthTile> draw(std::span<const double> state);
-  /// Draws as draw() does, the views at the same time: for a state that no other one goes with.
+  /// Draws as draw() does, the views at the same time: for states too few to occupy all threads.
   std::span<const DepthTile> draw_by_views(std::span<const double> state);
 
   std::span<const DepthTile> tiles() const { return tiles_; }
