@@ -56,7 +56,9 @@ Planes planes_around(const Observation& observation, const Settings& settings) {
     for (const float y : {0.0f, low}) most = std::max(most, motion(map, x, y, first, last));
 
   const int room = std::clamp(kMostNumbers / (tile.width * tile.height), 2, kMostPlanes);
-  const double wanted = std::isfinite(most) ? std::min(most / settings.step, 1e6) : 1e6;
+  // Views far apart see so different patches that finer steps tell nothing.
+  constexpr double kLongest = 72;  // pixels that are compared step by step
+  const double wanted = (std::isfinite(most) ? std::min(most, kLongest) : kLongest) / settings.step;
   const int count = std::clamp(static_cast<int>(std::ceil(wanted)) + 1, 2, room);
   return {first, (last - first) / static_cast<float>(count - 1), count};
 }

@@ -28,6 +28,18 @@ TEST(Planes, OfAGeneralPairLieNoFartherApart) {
   EXPECT_GT(planes.count, 20);
 }
 
+TEST(Planes, OfViewsFarApartLieFartherApart) {
+  const PatchPair pair({});
+  Settings settings;
+  settings.step = 1;
+  const int usual = planes_around(pair.observation, settings).count;
+  settings.range = 0.3;
+  const int many = planes_around(pair.observation, settings).count;
+  settings.range = 0.4;
+  EXPECT_GT(many, usual);
+  EXPECT_EQ(planes_around(pair.observation, settings).count, many);
+}
+
 TEST(Planes, AreNoMoreThanMemoryAllows) {
   const PatchPair pair({});
   Settings settings;
