@@ -62,13 +62,21 @@ std::size_t GpuWorkers::size() const {
 }
 
 void GpuWorkers::interrupt() {
-  for (auto& [gpu, each] : seats_)
+  interrupted_ = true;
+  for (auto& [gpu, each] : seats_) {
     if (each.worker) each.worker->signal(SIGINT);
-  for (const Held& held : waiting_) {
-    append(held.job.log, "hypotrack: interrupted before the first frame\n");
-    ended_.push_back({held.job.key, {kInterrupted, 0}});
+    for (const Held& held : std::exchange(each.suspects, {})) drop(held);
   }
-  waiting_.clear();
+  for (const Held& held : std::exchange(waiting_, {})) drop(held);
+}
+
+/// Ends a run that no worker makes after an interrupt.
+void GpuWorkers::drop(const Held& held) {
+  const bool had_begun = held.begin != Clock::time_point{};
+  append(held.job.log, fmt::format("hypotrack: interrupted {}\n",
+                                   had_begun ? "after its worker had ended"
+                                             : "before the first frame"));
+  ended_.push_back({held.job.key, {kInterrupted, 0}});
 }
 
 void GpuWorkers::kill() {
@@ -141,6 +149,8 @@ void GpuWorkers::end_overdue(Seat& seat) {
   for (Held& held : std::exchange(seat.running, {})) {
     if (overdue(held))
       finish(seat, held, {128 + SIGKILL, SIGKILL}, settings_.time_limit_s);
+    else if (interrupted_)
+      drop(held);
     else
       waiting_.push_front(std::move(held));
   }
@@ -148,14 +158,14 @@ void GpuWorkers::end_overdue(Seat& seat) {
   seat.worker.reset();
 }
 
-/// Takes leave of a worker that has ended, and starts the next one if that one had worked.
+/// Takes leave of a worker that has ended, and starts the next one if runs are to be made again.
 void GpuWorkers::bury(Seat& seat) {
   seat.end = seat.worker->wait();
   seat.words = read_whole(seat.log).value_or("");
   seat.worker.reset();
   std::ranges::move(std::exchange(seat.running, {}), std::back_inserter(seat.suspects));
-  const bool was_of_use = seat.ready && !seat.suspects.empty();
-  if (was_of_use) return start_worker(seat);
+  const bool is_needed = seat.ready && !seat.suspects.empty() && !interrupted_;
+  if (is_needed) return start_worker(seat);
   if (seat.gpu.why.empty()) {
     const std::string words = seat.words.substr(0, seat.words.find('\n'));
     seat.gpu.why = fmt::format("its worker ended with exit code {}{}{}", seat.end.code,
@@ -167,11 +177,15 @@ void GpuWorkers::bury(Seat& seat) {
 /// Decides on the runs that a worker had when it ended, now that the GPU has answered or is gone.
 void GpuWorkers::judge_suspects(Seat& seat) {
   std::vector<Held> suspects = std::exchange(seat.suspects, {});
+  if (interrupted_) {
+    for (const Held& held : suspects) drop(held);
+    return;
+  }
   const std::string count = runs_text(suspects.size());
   if (seat.gone()) {
     if (!seat.gpu.name.empty())  // it had answered
-      notes_.push_back(fmt::format("note: GPU {} is lost: {}; it gives back {}", seat.gpu.number,
-                                   seat.gpu.why, count));
+      notes_.push_back(fmt::format("note: GPU {} is lost: {}{}", seat.gpu.number, seat.gpu.why,
+                                   suspects.empty() ? "" : "; it gives back " + count));
   } else if (suspects.size() == 1) {
     Held& guilty = suspects.front();
     if (!guilty.failed) append(guilty.job.log, seat.words);

@@ -45,7 +45,7 @@ class GpuWorkers {
   std::size_t size() const;
   /// Returns what happened to workers since the last call.
   std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
-  /// Tells all runs to end early, and drops those that wait.
+  /// Tells all runs to end early, and drops those that no worker makes, now or later.
   void interrupt();
   /// Ends all workers at once, and forgets their jobs.
   void kill();
@@ -81,6 +81,7 @@ class GpuWorkers {
   void end_overdue(Seat& seat);
   void bury(Seat& seat);
   void judge_suspects(Seat& seat);
+  void drop(const Held& held);
   void finish(const Seat& seat, const Held& held, Subprocess::End end, double limit_s = 0);
   Seat* free_seat(const Held& held);
   bool may_take(const Seat& seat, const Held& held) const;
@@ -90,6 +91,7 @@ class GpuWorkers {
   const CrewSettings& settings_;
   std::filesystem::path logs_;
   int started_ = 0;
+  bool interrupted_ = false;
   std::map<int, Seat> seats_;
   std::deque<Held> waiting_;
   std::deque<Ended> ended_;

@@ -215,6 +215,52 @@ TEST_F(CrewTest, AnInterruptDropsRunsThatWait) {
   EXPECT_THAT(message(ended.at(1)), HasSubstr("interrupted before the first frame"));
 }
 
+TEST_F(CrewTest, AfterAnInterruptNoRunIsMadeAgain) {
+  plan("hold_0", "2");
+  plan("crash_1");
+  Crew crew(settings(2, {0}));
+  crew.start_gpus(true);
+  crew.start(job(1));
+  crew.start(job(2));
+  std::map<std::size_t, Ended> ended;
+  while (log().size() < 2) take(crew, ended);
+  crew.interrupt();
+  while (crew.size() > 0) take(crew, ended);
+  EXPECT_THAT(log(), SizeIs(2));
+  EXPECT_THAT(notes_, IsEmpty());
+  for (const std::size_t key : {1, 2}) EXPECT_EQ(ended.at(key).end.code, 130) << key;
+}
+
+TEST_F(CrewTest, AnInterruptDropsRunsOfAWorkerThatStartsAnew) {
+  plan("hold_0", "2");
+  plan("crash_1");
+  Crew crew(settings(2, {0}));
+  crew.start_gpus(true);
+  plan("silent_0");
+  crew.start(job(1));
+  crew.start(job(2));
+  std::map<std::size_t, Ended> ended;
+  while (log().size() < 3) take(crew, ended);
+  ASSERT_EQ(log().back(), "0 silent");
+  crew.interrupt();
+  for (const std::size_t key : {1, 2}) {
+    take(crew, ended);
+    EXPECT_EQ(ended[key].end.code, 130) << key;
+  }
+  EXPECT_EQ(crew.size(), 0U);
+  EXPECT_THAT(message(ended[1]), HasSubstr("interrupted after its worker had ended"));
+}
+
+TEST_F(CrewTest, AGpuThatIsLostWithoutRunsGivesNoneBack) {
+  plan("exit_0");
+  Crew crew(settings(1, {0}));
+  crew.start_gpus(true);
+  std::filesystem::remove(path("exit_0"));
+  std::map<std::size_t, Ended> ended;
+  while (notes_.empty()) take(crew, ended);
+  EXPECT_THAT(notes_, ElementsAre("note: GPU 0 is lost: its worker ended with exit code 3"));
+}
+
 TEST(JobLine, ReadsAsItWasWritten) {
   const Job job{.key = 7,
                 .scene = "a \"scene\"\n.yaml",

@@ -2,6 +2,7 @@
 # A worker (run/crew/) that does what files in $PLAN say, by GPU or by key of a job:
 #   absent_GPU  its GPU does not answer        hold_GPU   it takes that many jobs before it acts
 #   lose_GPU    its GPU fails, and is absent   fault_KEY  its GPU fails, and answers again
+#   silent_GPU it never answers               exit_GPU   it ends when that file is removed
 #   crash_KEY   the run ends the process       overdue_KEY, wait_KEY, fail_KEY  of a run
 # It appends to $PLAN/log: the GPU, the job's key and the device that the job's settings name.
 if [ "$1" = run ]; then
@@ -13,7 +14,15 @@ gpu=${!#}
 say() { echo "{\"kind\":\"$1\",\"text\":\"$2\",\"key\":${3:-0},\"code\":${4:-0}}" >&3; }
 absent() { say absent 'it fell off the bus'; exit; }
 [ -e "$PLAN/absent_$gpu" ] && absent
+if [ -e "$PLAN/silent_$gpu" ]; then
+  echo "$gpu silent" >>"$PLAN/log"
+  exec sleep 100
+fi
 say ready "model $gpu"
+if [ -e "$PLAN/exit_$gpu" ]; then
+  while [ -e "$PLAN/exit_$gpu" ]; do sleep 0.01; done
+  exit 3
+fi
 held=()
 act() {
   local key=$1
