@@ -60,6 +60,19 @@ void Progress::say(const std::string& text) {
   shown_ = {};  // shows the bar again at the next step
 }
 
+void Progress::print(const std::string& lines) {
+  if (terminal_) tell("\r\x1b[K");
+  std::fputs(lines.c_str(), stdout);
+  std::fflush(stdout);  // main() reports a failure
+  shown_ = {};
+}
+
+bool Progress::shows(const std::string& line) {
+  const std::size_t end = line.find_first_not_of("0123456789/");
+  return end != 0 && end != std::string::npos && line.substr(end).starts_with(" frames, ") &&
+         line.find(" fps") != std::string::npos;
+}
+
 void Progress::advance(const std::string& note) {
   ++done_;
   last_note_ = note;

@@ -23,6 +23,10 @@ class Progress {
 
   /// Prints a separate line without disturbing the bar.
   void say(const std::string& text);
+  /// Prints lines to stdout without disturbing the bar.
+  void print(const std::string& lines);
+  /// Returns whether a line is one that a Progress of frames prints.
+  static bool shows(const std::string& line);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <csignal>
 #include <map>
+#include <set>
+#include <sstream>
 #include <thread>
 #include <utility>
 
@@ -19,13 +21,17 @@
 #include "run/crew/crew.hpp"
 #include "run/crew/failure_message.hpp"
 #include "run/crew/gpu_list.hpp"
+#include "run_summary.hpp"
 #include "session/scene_file.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::seconds kSilence{3};  // in which runs end after an interrupt without a word
 
 /// Returns the name of a run's folder: the scene's, or that of its folder if it is `scene.yaml`.
 std::string name_of(const std::filesystem::path& scene) {
@@ -58,6 +64,17 @@ std::optional<int> gpu_of(const std::filesystem::path& scene, const std::vector<
   return settings.device;
 }
 
+/// Returns what a run said besides its progress, its summary and that it was interrupted.
+std::string notes_in(std::string log, const std::string& summary) {
+  log.erase(log.rfind(summary), summary.size());
+  std::string notes;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && !Progress::shows(line) && !line.ends_with(kInterruptedLate))
+      notes += "\n" + line;
+  return notes;
+}
+
 class SeveralScenes {
  public:
   SeveralScenes(const SeveralRuns& runs, const CommonOptions& common)
@@ -75,13 +92,17 @@ class SeveralScenes {
     while (crew_.size() > 0 || (next < jobs_.size() && !interrupted_)) {
       look_for_interrupt();
       const bool starts = next < jobs_.size() && !interrupted_ && crew_.has_room();
-      if (starts) crew_.start(jobs_[next++]);
+      if (starts) {
+        running_.insert(next);
+        crew_.start(jobs_[next++]);
+      }
       const auto ended = crew_.take_ended();
       for (const std::string& note : crew_.take_notes()) progress_->say(note);
       if (ended) finish(*ended);
       if (!starts && !ended) std::this_thread::sleep_for(kPoll);
     }
     progress_.reset();
+    for (; next < jobs_.size(); ++next) not_begun_.insert(next);
     return conclude();
   }
 
@@ -104,25 +125,38 @@ class SeveralScenes {
       job.set.push_back(fmt::format("evaluate.threads={}", threads(crew_.settings().jobs)));
     job.set.insert(job.set.end(), runs_.set.begin(), runs_.set.end());
     job.out = runs_.out / names_[index];
-    job.log = logs_.path() / fmt::format("{}.txt", index);
+    job.log = crew_.scratch() / fmt::format("{}.txt", index);
     job.frames = runs_.frames;
     job.gpu = gpu_of(job.scene, job.set, list_.has_value());
     return job;
   }
 
   void look_for_interrupt() {
-    if (interrupted_ || !interrupt_.interrupted()) return;
-    interrupted_ = true;
-    crew_.interrupt();
+    if (!interrupted_ && interrupt_.interrupted()) {
+      interrupted_ = Clock::now();
+      crew_.interrupt();
+    }
+    if (!interrupted_ || said_that_it_waits_ || Clock::now() - *interrupted_ < kSilence) return;
+    said_that_it_waits_ = true;
+    progress_->say(fmt::format("waiting for {}; Ctrl-C again ends {} at once", names(running_),
+                               running_.size() == 1 ? "it" : "them"));
   }
 
   void finish(const Ended& ended) {
     const std::string& name = names_[ended.key];
     const std::string log = read_whole(jobs_[ended.key].log).value_or("");
-    const bool complete = ended.end.code == 0 && log.find("results in ") != std::string::npos;
-    if (complete) {
-      progress_->say(fmt::format("{}:\n{}", name, log));
-    } else if (!interrupted_) {
+    const std::string summary = summary_in(log);
+    running_.erase(ended.key);
+    if (!summary.empty()) {
+      if (const std::string notes = notes_in(log, summary); !notes.empty())
+        progress_->say(fmt::format("{}:{}", name, notes));
+      progress_->print(fmt::format("{}:\n{}", name, summary));
+    }
+    if (interrupted_ && log.find(kInterruptedLate) != std::string::npos) {
+      cut_.insert(ended.key);
+    } else if (interrupted_ && never_began(ended, log)) {
+      not_begun_.insert(ended.key);
+    } else if (ended.end.code != 0 || summary.empty()) {
       failed_.push_back(name);
       progress_->say(
           fmt::format("failed: {}: {}", name, failure_message(jobs_[ended.key].log, ended)));
@@ -130,25 +164,45 @@ class SeveralScenes {
     progress_->advance(failed_.empty() ? "" : fmt::format("{} failed", failed_.size()));
   }
 
+  static bool never_began(const Ended& ended, const std::string& log) {
+    return log.find("interrupted before the first frame") != std::string::npos ||
+           (log.empty() && ended.end.signal == SIGINT);
+  }
+
+  std::string names(const std::set<std::size_t>& keys) const {
+    std::string text;
+    for (const std::size_t key : keys) text += (text.empty() ? "" : ", ") + names_[key];
+    return text;
+  }
+
   int conclude() const {
     if (!failed_.empty())
       tell("hypotrack: {} of {} runs failed: {}\n", failed_.size(), jobs_.size(),
            fmt::join(failed_, ", "));
-    if (interrupted_) tell("hypotrack: interrupted; the files hold the frames so far\n");
-    if (interrupted_) return kInterruptedExitCode;
+    if (interrupted_) {
+      std::string text = "interrupted";
+      if (!cut_.empty())
+        text += fmt::format("; the files of {} hold the frames so far", names(cut_));
+      if (!not_begun_.empty()) text += fmt::format("; {} did not begin", names(not_begun_));
+      tell("hypotrack: {}\n", text);
+      return kInterruptedExitCode;
+    }
     return failed_.empty() ? 0 : 1;
   }
 
   const SeveralRuns& runs_;
   std::vector<std::string> names_;
   std::optional<GpuList> list_;
-  ScratchFolder logs_;
   Crew crew_;
   std::vector<Job> jobs_;
   const InterruptGuard interrupt_;
   std::optional<Progress> progress_;
+  std::set<std::size_t> running_;
+  std::set<std::size_t> cut_;        ///< ended early by an interrupt
+  std::set<std::size_t> not_begun_;  ///< because of an interrupt
   std::vector<std::string> failed_;
-  bool interrupted_ = false;
+  std::optional<Clock::time_point> interrupted_;
+  bool said_that_it_waits_ = false;
 };
 
 }  // namespace

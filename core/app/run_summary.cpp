@@ -51,4 +51,12 @@ std::string summary_text(const Summary& s, const std::filesystem::path& out) {
   return text;
 }
 
+std::string summary_in(const std::string& log) {
+  const std::size_t last = log.rfind("results in ");
+  const std::size_t first = log.rfind(" tracked, ", last);
+  if (last == std::string::npos || first == std::string::npos) return {};
+  const std::size_t begin = log.rfind('\n', first) + 1;  // npos + 1 is 0
+  return log.substr(begin, log.find('\n', last) + 1 - begin);
+}
+
 }  // namespace hypotrack::app

@@ -10,6 +10,9 @@ namespace hypotrack::app {
 /// Returns the lines that a run ends with: speed, errors, where the results are.
 std::string summary_text(const Summary& summary, const std::filesystem::path& out);
 
+/// Returns the lines of summary_text() in what a run said; empty if there are none.
+std::string summary_in(const std::string& log);
+
 /// What a run says that was interrupted before it wrote anything, and what after, without
 /// `hypotrack: `.
 inline constexpr const char* kInterruptedEarly =

@@ -1,6 +1,7 @@
 // The hidden command that a crew starts for a GPU (run/crew/).
 #include <fmt/format.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <atomic>
@@ -164,6 +165,12 @@ void add_work_command(const Command& root, CommonOptions& common, int& exit_code
   command.hide();
   command.add("--gpu", gpu.get(), "Number of the GPU", {.check = whole_number(0)});
   command.on_call([gpu, &common, &exit_code] {
+    struct stat info {};
+    if (fstat(kWorkerSocket, &info) != 0 || !S_ISSOCK(info.st_mode))
+      throw ConfigError(fmt::format(
+          "work: descriptor {} is no socket; this command is not for you: `hypotrack run SCENE... "
+          "--jobs N --gpus all` starts it",
+          kWorkerSocket));
     Worker(*gpu, common).serve();
     exit_code = 0;
   });

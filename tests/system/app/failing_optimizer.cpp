@@ -5,6 +5,7 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <limits>
 #include <new>
 #include <stdexcept>
@@ -83,6 +84,7 @@ class Failing : public hypotrack::Optimizer {
     if (params_.how == How::kExit) exit(0);
     if (params_.how == How::kUnderscoreExit) _exit(0);
     if (params_.how == How::kInterruptedCode) _exit(130);
+    if (params_.how == How::kHang) std::fputs("hangs\n", stderr);
     while (params_.how == How::kHang) pause();
     if (params_.how == How::kException) throw std::runtime_error("the search is broken");
   }

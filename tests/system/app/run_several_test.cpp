@@ -1,8 +1,11 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <chrono>
+#include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "app_test.hpp"
 #include "base/descriptor.hpp"
@@ -51,7 +54,8 @@ TEST_F(RunSeveralTest, EachSceneIsTrackedAsByItself) {
     const auto alone = path("alone") / name;
     ASSERT_EQ(run_program({"run", file, "--out", alone.string(), "--frames", "3"}).exit_code, 0);
     EXPECT_EQ(track_without_times(path("out") / name), track_without_times(alone)) << name;
-    EXPECT_THAT(outcome.err, HasSubstr(std::string(name) + ":\n"));
+    EXPECT_THAT(outcome.err, HasSubstr(std::string(name) + ":\ntracking with "));
+    EXPECT_THAT(outcome.out, HasSubstr(std::string(name) + ":\n3 frames ("));
   }
 }
 
@@ -95,8 +99,80 @@ TEST_F(RunSeveralTest, WithoutAGpuTheirChoiceIsRefused) {
   if (why.empty()) GTEST_SKIP() << "needs a machine without a GPU";
   for (const char* list : {"all", "auto", "0,1"})
     expect_refusal(run_several({scene(box_scene(), "a.yaml")}, {"--gpus", list}),
-                   {std::string("--gpus ") + list + ": " + why});
+                   {std::string("--gpus ") + list + ": " + why + "; leave --gpus out"});
   EXPECT_EQ(run_several({scene(box_scene(), "a.yaml")}, {"--gpus", "first"}).exit_code, 1);
+}
+
+TEST_F(RunSeveralTest, WithoutAFolderForTemporaryFilesItSaysWhich) {
+  Start start;
+  start.arguments = {"run", scene(box_scene()), "--jobs", "1", "--out", path("out").string()};
+  start.environment = {"TMPDIR=" + path("absent").string()};
+  expect_refusal(run_program(start), {"TMPDIR=" + path("absent").string() +
+                                      ": cannot make a temporary folder there: "
+                                      "No such file or directory; set TMPDIR"});
+}
+
+TEST_F(RunSeveralTest, TheCommandOfAWorkerIsNotForUsers) {
+  expect_refusal(run_program({"work", "--gpu", "0"}), {"work: descriptor 3 is no socket"});
+}
+
+/// A test with runs that last until they are stopped.
+class InterruptedRunsTest : public RunSeveralTest {
+ protected:
+  std::string endless(const std::string& name, const std::string& text) const {
+    return scene(replaced(quiet(text), "synthetic\n", "synthetic\n  frames: 1000000\n"), name);
+  }
+  Start start(const std::vector<std::string>& scenes) const {
+    Start start;
+    start.arguments = {"--plugin-path",
+                       (build_dir() / "tests/plugin_fixtures/app").string(),
+                       "run",
+                       "--out",
+                       path("out").string(),
+                       "--jobs",
+                       "2"};
+    start.arguments.insert(start.arguments.end(), scenes.begin(), scenes.end());
+    start.err = path("err.txt");
+    std::filesystem::create_directory(path("tmp"));
+    start.environment = {"TMPDIR=" + path("tmp").string()};
+    return start;
+  }
+  /// Waits until a file has a text in it.
+  void wait_for(Program& program, const std::string& name, const std::string& text) const {
+    while (program.running() && read_text(path(name)).find(text) == std::string::npos)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(program.running()) << read_text(path("err.txt"));
+  }
+};
+
+TEST_F(InterruptedRunsTest, FramesSoFarAreKeptAndRunsThatDidNotBeginAreNamed) {
+  Program program(start({endless("a.yaml", box_scene()), endless("b.yaml", box_scene()),
+                         endless("c.yaml", box_scene())}));
+  for (const char* table : {"out/a/track.csv", "out/b/track.csv"}) wait_for(program, table, "\n1,");
+  program.signal(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_THAT(read_text(path("err.txt")),
+              testing::EndsWith("hypotrack: interrupted; the files of a, b hold the frames so far; "
+                                "c did not begin\n"));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("a:\n"), HasSubstr("results in "), HasSubstr("b:\n")));
+  EXPECT_THAT(names_in(path("out")), testing::ElementsAre("a", "b"));
+  EXPECT_TRUE(std::filesystem::exists(path("out/a/summary.json")));
+}
+
+TEST_F(InterruptedRunsTest, RunsThatDoNotAnswerAreNamedAndASecondCtrlCEndsThem) {
+  Program program(start({endless("a.yaml", box_scene()), endless("deaf.yaml", failing("hang"))}));
+  wait_for(program, "out/deaf/track.csv", "frame,");
+  ASSERT_EQ(names_in(path("tmp")).size(), 1U);
+  wait_for(program, "tmp/" + names_in(path("tmp")).front() + "/1.txt", "hangs");
+  program.signal(SIGINT);
+  wait_for(program, "err.txt", "waiting for deaf; Ctrl-C again ends it at once\n");
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait().exit_code, 128 + SIGINT);
+  Start next = start({path("a.yaml").string()});
+  next.arguments.insert(next.arguments.end(), {"--frames", "1"});
+  EXPECT_EQ(run_program(next).exit_code, 0) << read_text(path("err.txt"));
+  EXPECT_THAT(names_in(path("tmp")), testing::IsEmpty());
 }
 
 /// A test with a worker that tracks in threads of one process, without a GPU.

@@ -53,8 +53,9 @@ std::string Crew::start_gpus(bool all_needed) {
     named.push_back(fmt::format("GPU {} ({})", gpu.number, gpu.name));
   }
   if (there.empty() || (all_needed && !absent.empty()))
-    throw DeviceError(fmt::format("--gpus: {}{}", fmt::join(absent, "; "),
-                                  there.empty() ? "" : "; `--gpus auto` leaves it out"));
+    throw DeviceError(
+        fmt::format("--gpus: {}{}", fmt::join(absent, "; "),
+                    there.empty() ? "; leave --gpus out" : "; `--gpus auto` leaves it out"));
   settings_.gpus = there;
   std::string text = fmt::format("{}", fmt::join(named, ", "));
   if (!absent.empty()) text += fmt::format("; without {}", fmt::join(absent, "; "));

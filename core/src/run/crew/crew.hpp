@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ class Crew {
   Crew& operator=(const Crew&) = delete;
 
   const CrewSettings& settings() const { return settings_; }
+  /// Returns a folder for logs of jobs. It is removed with the crew.
+  const std::filesystem::path& scratch() const { return scratch_.path(); }
   /// Starts the workers of the settings' GPUs. Leaves out those that do not answer if
   /// `all_needed` is false. Returns a text that names the others. Throws DeviceError.
   std::string start_gpus(bool all_needed);

@@ -12,6 +12,8 @@
 namespace hypotrack::internal {
 namespace {
 
+constexpr std::string_view kAdvice = "; leave --gpus out";  // where there is no GPU
+
 std::vector<int> parse_numbers(const std::string& text) {
   std::vector<int> numbers;
   std::string_view rest = text;
@@ -37,13 +39,14 @@ GpuList parse_gpus(const std::string& text) {
     while (cuda::why_no_device(static_cast<int>(list.numbers.size())).empty())
       list.numbers.push_back(static_cast<int>(list.numbers.size()));
     if (list.numbers.empty())
-      throw DeviceError(fmt::format("--gpus {}: {}; leave it out", text, cuda::why_no_device()));
+      throw DeviceError(fmt::format("--gpus {}: {}{}", text, cuda::why_no_device(), kAdvice));
     return list;
   }
   list.numbers = parse_numbers(text);
   for (const int number : list.numbers)
     if (const std::string why = cuda::why_no_device(number); !why.empty())
-      throw DeviceError(fmt::format("--gpus {}: {}", text, why));
+      throw DeviceError(
+          fmt::format("--gpus {}: {}{}", text, why, cuda::why_no_device().empty() ? "" : kAdvice));
   return list;
 }
 

@@ -73,9 +73,9 @@ void GpuWorkers::interrupt() {
 /// Ends a run that no worker makes after an interrupt.
 void GpuWorkers::drop(const Held& held) {
   const bool had_begun = held.begin != Clock::time_point{};
-  append(held.job.log, fmt::format("hypotrack: interrupted {}\n",
-                                   had_begun ? "after its worker had ended"
-                                             : "before the first frame"));
+  append(held.job.log,
+         fmt::format("hypotrack: interrupted {}\n",
+                     had_begun ? "after its worker had ended" : "before the first frame"));
   ended_.push_back({held.job.key, {kInterrupted, 0}});
 }
 

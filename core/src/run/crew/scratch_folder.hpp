@@ -1,37 +1,28 @@
 #pragma once
 
-#include <stdlib.h>
-
 #include <filesystem>
-#include <string>
-#include <system_error>
+#include <optional>
 
+#include "base/descriptor.hpp"
 #include "base/exported.hpp"
-#include "hypotrack/error.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// A temporary folder, removed at the end.
+/// A temporary folder, removed at the end. Its name has the number of the process, for a process
+/// that is killed leaves it: the next one of the user removes it.
 class ScratchFolder {
  public:
   /// Throws OutputError.
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "hypotrack_XXXXXX").string();
-    if (!mkdtemp(name.data()))
-      throw OutputError(name + ": cannot make a temporary folder; set TMPDIR to one with room");
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  ScratchFolder();
+  ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
   const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;
+  std::optional<Descriptor> lock_;  ///< tells processes that cannot see this one
 };
 
 }  // namespace internal
