@@ -58,7 +58,7 @@ class CrewTest : public testing::Test {
     std::map<std::size_t, Ended> ended;
     std::size_t next = 0;
     while (next < count || crew.size() > 0) {
-      if (next < count && crew.has_room()) crew.start(job(next++));
+      while (next < count && crew.has_room()) crew.start(job(next++));  // dealt before any ends
       take(crew, ended);
     }
     return ended;
