@@ -25,7 +25,6 @@
 #include "lab/study/tables.hpp"
 #include "progress.hpp"
 #include "run/crew/crew.hpp"
-#include "run/crew/gpu_list.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

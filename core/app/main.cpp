@@ -9,9 +9,9 @@
 
 #include "base/standard_streams.hpp"
 #include "commands.hpp"
-#include "failure_text.hpp"
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/plugin.hpp"
+#include "messages.hpp"
 #include "plugin/crash_report.hpp"
 #include "tell.hpp"
 

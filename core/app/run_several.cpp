@@ -17,11 +17,10 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
 #include "interrupt.hpp"
+#include "messages.hpp"
 #include "progress.hpp"
 #include "run/crew/crew.hpp"
 #include "run/crew/failure_message.hpp"
-#include "run/crew/gpu_list.hpp"
-#include "run_summary.hpp"
 #include "session/scene_file.hpp"
 #include "tell.hpp"
 

@@ -18,14 +18,13 @@
 #include "commands.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/page_locked_images.hpp"
-#include "failure_text.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "interrupt.hpp"
+#include "messages.hpp"
 #include "plugin/running_plugin.hpp"
 #include "run/crew/job.hpp"
 #include "run/run_scene.hpp"
-#include "run_summary.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -14,12 +14,21 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
+/// The GPUs that a command line asks for.
+struct GpuList {
+  std::vector<int> numbers;
+  bool all_needed = true;  ///< false: those that do not answer are left out
+};
+
+/// Parses `all`, `auto` or numbers with commas. Throws ConfigError, DeviceError if there is no GPU.
+GpuList parse_gpus(const std::string& text);
+
 /// Returns the environment that keeps graphics drivers from starting a thread per core in every
 /// run: empty if it says already how many they start.
 std::vector<std::string> driver_variables(int threads);
 
-/// Makes runs at the same time: those of a GPU as threads of a worker process for that GPU, for
-/// processes would take turns on it; the others each in a process of its own.
+/// Makes runs at the same time. Those of a GPU are threads of a worker process, for processes would
+/// take turns on it. The others have a process each.
 class Crew {
  public:
   /// Throws OutputError if there is no room for temporary files.

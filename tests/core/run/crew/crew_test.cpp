@@ -16,7 +16,6 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
 #include "run/crew/failure_message.hpp"
-#include "run/crew/gpu_list.hpp"
 #include "run/crew/scratch_folder.hpp"
 #include "test_paths.hpp"
 

@@ -7,6 +7,9 @@
 
 namespace hypotrack::app {
 
+/// Returns what the program says of the exception that is being handled, without `hypotrack: `.
+std::string failure_text();
+
 /// Returns the lines that a run ends with: speed, errors, where the results are.
 std::string summary_text(const Summary& summary, const std::filesystem::path& out);
 
