@@ -33,8 +33,8 @@ class SideCheck {
   bool told_ = false;
 };
 
-/// Returns what the user should know of a right or left model that is of the wrong side: a hand of
-/// the other side is where it is, or else all hands in the pictures are of that side.
+/// Returns a warning that a right or left model is of the wrong side. `is_there`: a hand of the
+/// other side is where the model is; otherwise all hands in the pictures are of that side.
 inline std::string wrong_side_text(const std::string& model, bool right, bool is_there) {
   const std::string own = right ? "right" : "left", other = right ? "left" : "right";
   const std::string sight =

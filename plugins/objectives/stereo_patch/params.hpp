@@ -33,8 +33,9 @@ struct Params : Settings {
        .unit = "mm",
        .to_si = kMillimetre});
     v("step_px", step,
-      {.help = "distance of the depths that are compared, in pixels of the other view's tile, and "
-               "more for a range of over 72 pixels; between them similarity is interpolated",
+      {.help =
+           "distance of the depths that are compared, in pixels of the other view's tile; larger "
+           "where they span over 72 pixels. Between them similarity is interpolated",
        .min = 0.1,
        .max = 4,
        .unit = "px"});
