@@ -19,7 +19,6 @@
 #include "lab/study/check_cells.hpp"
 #include "lab/study/execute.hpp"
 #include "lab/study/plan.hpp"
-#include "lab/study/recordings.hpp"
 #include "lab/study/study_file.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
@@ -131,22 +130,6 @@ std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const 
   return cells_of(plan, runs);
 }
 
-/// Makes the runs and the recordings that they read. Returns false if it was interrupted.
-bool make_runs(const study::StudyFolder& folder, const study::Plan& plan,
-               const std::vector<std::size_t>& runs, const study::Launch& launch,
-               const std::map<std::size_t, int>& gpus, Crew& crew,
-               const InterruptGuard& interrupt) {
-  const study::RedrawnRecordings recordings(plan);
-  Console console(plan, runs.size(), interrupt);
-  for (const std::vector<std::size_t>& batch : study::batches_of(plan, runs)) {
-    if (plan.study.recordings)
-      study::make_recordings(folder, plan, batch, launch, [&] { return !interrupt.interrupted(); });
-    if (!study::execute(folder, plan, batch, launch, gpus, crew, console)) return false;
-    recordings.remove_read(folder, batch);
-  }
-  return true;
-}
-
 /// Prints the state of the study and returns the exit code.
 int conclude(const study::Tally& tally, const study::StudyFolder& folder, bool complete) {
   const std::size_t failed = tally.failed;
@@ -180,13 +163,14 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
        plan.study.title, plan.runs.size(), plan.cells.size(), runs.size(), launch.jobs,
        launch.threads, launch.threads == 1 ? "" : "s");
   const auto gpus =
-      study::check_cells(plan, cells, launch, [&] { return !interrupt.interrupted(); });
+      study::check_cells(plan, cells, launch, crew, [&] { return !interrupt.interrupted(); });
   if (interrupt.interrupted()) {
     tell("hypotrack: interrupted before the first run\n");
     return kInterruptedExitCode;
   }
   folder.begin();
-  const bool complete = make_runs(folder, plan, runs, launch, gpus, crew, interrupt);
+  Console console(plan, runs.size(), interrupt);
+  const bool complete = study::execute(folder, plan, runs, launch, gpus, crew, console);
   return conclude(study::write_tables(folder, plan), folder, complete);
 }
 

@@ -15,6 +15,7 @@
 #include <string>
 #include <thread>
 
+#include "check_scene.hpp"
 #include "commands.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/page_locked_images.hpp"
@@ -125,6 +126,10 @@ class Worker {
   /// Returns the exit code that a process of the run would have.
   int run(const Job& job, LoggedRun& watcher) const {
     PluginLoader plugins(common_.plugin_path);
+    if (job.check) {
+      watcher.say(check_scene(job.scene, job.set, plugins).backend);
+      return 0;
+    }
     const RunOptions options{.out = job.out, .frames = job.frames, .stop_now = [&watcher] {
                                return InterruptGuard::signalled() || watcher.overdue();
                              }};

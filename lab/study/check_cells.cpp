@@ -11,8 +11,6 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
 #include "run/crew/failure_message.hpp"
-#include "run/crew/process_pool.hpp"
-#include "run/crew/scratch_folder.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
@@ -42,41 +40,43 @@ std::string report(const Plan& plan, const std::map<std::size_t, std::string>& p
                             problems.size(), plan.cells.size());
 }
 
-std::vector<std::string> check_arguments(const Plan& plan, const Cell& cell, const Launch& launch) {
-  auto arguments =
-      scene_arguments("validate", plan.scene_of(cell).file, plan.changes_of(cell), plan, launch);
-  if (!launch.gpus.empty())
-    arguments.insert(arguments.end(),
-                     {"--set", fmt::format("evaluate.device={}", launch.gpus.front())});
-  return arguments;
+/// Returns the job that checks a cell. A worker has its context of CUDA already, which a process
+/// needs a second for.
+Job check_of(const Plan& plan, std::size_t index, const Launch& launch, const Crew& crew) {
+  const Cell& cell = plan.cells[index];
+  Job job{.key = index, .scene = plan.scene_of(cell).file};
+  job.set = settings_of(plan.changes_of(cell), plan, launch);
+  job.log = crew.scratch() / fmt::format("check_{}", index);
+  job.check = true;
+  if (!launch.gpus.empty()) job.gpu = launch.gpus.front();
+  return job;
 }
 
 }  // namespace
 
 std::map<std::size_t, int> check_cells(const Plan& plan, const std::vector<std::size_t>& cells,
-                                       const Launch& launch, const std::function<bool()>& again) {
-  const ScratchFolder scratch;
-  const auto log = [&](std::size_t cell) { return scratch.path() / fmt::format("{}", cell); };
-  ProcessPool pool(launch.time_limit_s);
+                                       const Launch& launch, Crew& crew,
+                                       const std::function<bool()>& again) {
   std::map<std::size_t, std::string> problems;
   std::map<std::size_t, int> gpus;
   std::size_t next = 0;
-  while (again() && (next < cells.size() || pool.size() > 0)) {
-    if (next < cells.size() && pool.size() < static_cast<std::size_t>(launch.jobs)) {
-      const std::size_t cell = cells[next++];
-      pool.start(cell, study_command(launch, plan, check_arguments(plan, plan.cells[cell], launch),
-                                     log(cell)));
+  while (again() && (next < cells.size() || crew.size() > 0)) {
+    if (next < cells.size() && crew.has_room()) {
+      crew.start(check_of(plan, cells[next++], launch, crew));
       continue;
     }
-    const auto ended = pool.take_ended();
+    const auto ended = crew.take_ended();
     if (!ended) {
       std::this_thread::sleep_for(kCheckPoll);
-    } else if (ended->end.code != 0) {
-      problems[ended->key] = failure_message(log(ended->key), *ended);
-    } else if (const auto gpu = cuda::gpu_in(read_whole(log(ended->key)).value_or(""))) {
-      gpus[ended->key] = *gpu;
+      continue;
     }
+    const std::filesystem::path log = crew.scratch() / fmt::format("check_{}", ended->key);
+    if (ended->end.code != 0)
+      problems[ended->key] = failure_message(log, *ended);
+    else if (const auto gpu = cuda::gpu_in(read_whole(log).value_or("")))
+      gpus[ended->key] = *gpu;
   }
+  if (crew.size() > 0) crew.kill();  // after an interrupt
   if (!problems.empty()) throw ConfigError(report(plan, problems));
   return gpus;
 }

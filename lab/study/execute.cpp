@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
+#include <exception>
 #include <map>
 #include <thread>
 #include <utility>
 
+#include "hypotrack/error.hpp"
 #include "lab/study/recordings.hpp"
 #include "run/crew/failure_message.hpp"
 
@@ -18,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kRunPoll{5};
 constexpr std::chrono::milliseconds kRetry{500};  // interval of looks at a run that another process
                                                   // is making
+constexpr std::size_t kShareAhead = 4;            // of the jobs may make recordings for later
 constexpr int kInterrupted = 130;                 // exit code of a run that was told to stop
 
 class Execution {
@@ -25,7 +29,13 @@ class Execution {
   Execution(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
             const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
             Watcher& watcher)
-      : folder_(folder), plan_(plan), launch_(launch), gpus_(gpus), crew_(crew), watcher_(watcher) {
+      : folder_(folder),
+        plan_(plan),
+        launch_(launch),
+        gpus_(gpus),
+        crew_(crew),
+        watcher_(watcher),
+        recordings_(folder, plan, runs, launch) {
     for (const std::size_t run : runs) waiting_.push_back({run, {}, folder_.state(plan.runs[run])});
   }
 
@@ -38,11 +48,14 @@ class Execution {
   bool work() {
     while (!waiting_.empty() || !working_.empty()) {
       if (watcher_.stop()) return false;
-      const bool moved = start_next();
+      const bool recorded = go_on_recording();
+      if (failure_ && working_.empty()) std::rethrow_exception(failure_);
+      const bool started = !failure_ && start_next();
+      idle_ = !started && room() > 0;
       const auto ended = crew_.take_ended();
       for (const std::string& note : crew_.take_notes()) watcher_.say(note);
       if (ended && !finish(*ended)) return false;
-      if (!moved && !ended) std::this_thread::sleep_for(kRunPoll);
+      if (!recorded && !started && !ended) std::this_thread::sleep_for(kRunPoll);
     }
     return true;
   }
@@ -54,7 +67,9 @@ class Execution {
     RunState before;          ///< a failure that was there before is tried again
   };
 
+  bool go_on_recording();
   bool start_next();
+  std::size_t room() const;
   void start(std::size_t run, RunFolder folder);
   bool finish(const Ended& ended);
 
@@ -66,19 +81,47 @@ class Execution {
   Watcher& watcher_;
   std::deque<Waiting> waiting_;
   std::map<std::size_t, RunFolder> working_;
+  Recordings recordings_;
+  bool idle_ = false;           ///< jobs are left that no run could take
+  std::exception_ptr failure_;  ///< of a recording
 };
 
-/// Starts the first waiting run that no other process makes. Returns false if nothing can start
-/// now.
+/// Returns how many runs or recordings may begin now.
+std::size_t Execution::room() const {
+  const std::size_t busy = crew_.size() + recordings_.size();
+  const auto jobs = static_cast<std::size_t>(launch_.jobs);
+  return jobs > busy ? jobs - busy : 0;
+}
+
+/// Makes recordings: first those that the next run waits for, then a few ahead, so that they are
+/// there when their runs begin. Returns false if nothing happened.
+bool Execution::go_on_recording() {
+  if (waiting_.empty() || failure_) return false;
+  const auto next = std::ranges::min(waiting_, {}, &Waiting::run).run;
+  const auto jobs = static_cast<std::size_t>(launch_.jobs);
+  try {
+    return recordings_.go_on(next, room(), idle_ ? jobs : jobs / kShareAhead);
+  } catch (const DataError&) {
+    failure_ = std::current_exception();  // to be thrown when the runs that have begun have ended
+    return false;
+  }
+}
+
+/// Starts the first waiting run whose recording is there and that no other process makes. Returns
+/// false if nothing can start now.
 bool Execution::start_next() {
-  if (waiting_.empty() || !crew_.has_room()) return false;
-  Waiting next = waiting_.front();
-  if (next.retry > Clock::now()) return false;  // all behind it wait longer
-  waiting_.pop_front();
+  if (room() == 0) return false;
+  const auto now = Clock::now();
+  const auto it = std::ranges::find_if(waiting_, [&](const Waiting& each) {
+    return each.retry <= now && recordings_.are_there_for(each.run);
+  });
+  if (it == waiting_.end()) return false;
+  Waiting next = *it;
+  waiting_.erase(it);
   const PlannedRun& run = plan_.runs[next.run];
   auto claimed = folder_.claim(run);
   if (!claimed) {
-    next.retry = Clock::now() + kRetry;
+    next.retry = now + kRetry;
     waiting_.push_back(next);
     return true;
   }
@@ -86,6 +129,7 @@ bool Execution::start_next() {
     start(next.run, *std::move(claimed));
   } else {  // another process was faster
     const auto failure = read_failure(folder_.run_path(run));
+    recordings_.remove_if_read(next.run);
     watcher_.on_run(run, failure ? failure->message : "");
   }
   return true;
@@ -115,6 +159,7 @@ bool Execution::finish(const Ended& ended) {
     folder.fail(plan_, run, {failure, ended.end.code});
   }
   working_.erase(ended.key);
+  recordings_.remove_if_read(ended.key);
   watcher_.on_run(run, failure);
   return true;
 }

@@ -26,10 +26,11 @@ class Watcher {
   virtual void say(const std::string& text) = 0;
 };
 
-/// Makes the given runs (indices into the plan) with a crew. `gpus`: number of the GPU of each cell
+/// Makes the given runs (indices into the plan) with a crew, and the recordings that they read
+/// beside them. `gpus`: number of the GPU of each cell
 /// that takes one. Also waits for runs that other processes are making. Records failures in the
-/// folder. Returns false if the watcher, or somebody who interrupted a run, ended the work early;
-/// unfinished runs are then given up. Throws OutputError.
+/// folder. Throws DataError if a recording failed. Returns false if the watcher, or somebody who
+/// interrupted a run, ended the work early; unfinished runs are then given up. Throws OutputError.
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
              const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
              Watcher& watcher);

@@ -3,25 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <map>
-#include <optional>
-#include <set>
+#include <filesystem>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "hypotrack/error.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/noise.hpp"
 #include "run/crew/failure_message.hpp"
-#include "run/crew/process_pool.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kRecordingPoll{20};
+constexpr std::chrono::milliseconds kLook{20};  // interval of looks for recordings to be made
 
 std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
   std::vector<Change> selected;
@@ -29,9 +23,6 @@ std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
     if (is_recorded(change) == recorded) selected.push_back(change);
   return selected;
 }
-
-/// Recordings still to be made, by name, with a run that needs each.
-using Wanted = std::map<std::string, std::size_t>;
 
 Subprocess::Command synth_command(const Plan& plan, const PlannedRun& run, const Launch& launch,
                                   const RunFolder& folder) {
@@ -41,55 +32,6 @@ Subprocess::Command synth_command(const Plan& plan, const PlannedRun& run, const
                                      launch.pictures});
   return work_command(launch, plan, std::move(arguments), folder);
 }
-
-class Recorder {
- public:
-  Recorder(const StudyFolder& folder, const Plan& plan, const Launch& launch)
-      : folder_(folder), plan_(plan), launch_(launch) {}
-
-  void work(Wanted wanted, const std::function<bool()>& again) {
-    while (again() && (!wanted.empty() || pool_.size() > 0)) {
-      for (auto it = wanted.begin(); it != wanted.end();)
-        it = take_in_hand(it->first, it->second) ? wanted.erase(it) : std::next(it);
-      if (const auto ended = pool_.take_ended())
-        finish(*ended);
-      else
-        std::this_thread::sleep_for(kRecordingPoll);
-    }
-  }
-
- private:
-  /// Starts a recording. Returns false if it must wait for a free slot or another process.
-  bool take_in_hand(const std::string& id, std::size_t run) {
-    if (std::filesystem::exists(folder_.recording_path(id))) return true;
-    if (pool_.size() >= static_cast<std::size_t>(launch_.jobs)) return false;
-    auto claimed = folder_.claim_recording(id);
-    if (!claimed) return false;
-    if (std::filesystem::exists(folder_.recording_path(id))) return true;
-    pool_.start(run, synth_command(plan_, plan_.runs[run], launch_, *claimed));
-    working_.emplace(run, *std::move(claimed));
-    return true;
-  }
-
-  void finish(const Ended& ended) {
-    RunFolder& folder = working_.at(ended.key);
-    const Cell& cell = plan_.cells[plan_.runs[ended.key].cell];
-    // The scene is written last.
-    if (ended.end.code != 0 || !std::filesystem::exists(folder.working() / "recording/scene.yaml"))
-      throw DataError(fmt::format("{}: {}: its source cannot be recorded: {}",
-                                  plan_.scene_of(cell).where, plan_.describe(cell),
-                                  failure_message(folder.log(), ended)));
-    folder.put_into_place();
-    working_.erase(ended.key);
-  }
-
-  const StudyFolder& folder_;
-  const Plan& plan_;
-  const Launch& launch_;
-  std::map<std::size_t, RunFolder> working_;  // declared before pool_, whose processes must end
-                                              // first
-  ProcessPool pool_;
-};
 
 }  // namespace
 
@@ -102,50 +44,83 @@ std::string recording_id(const Plan& plan, const PlannedRun& run) {
   return fmt::format("{}_{:016x}", plan.scene_of(cell).file.stem().string(), hash.value());
 }
 
-void make_recordings(const StudyFolder& folder, const Plan& plan,
-                     const std::vector<std::size_t>& runs, const Launch& launch,
-                     const std::function<bool()>& again) {
-  Wanted wanted;
-  for (const std::size_t run : runs)
-    if (folder.state(plan.runs[run]) != RunState::ok)  // by another process meanwhile
-      wanted.emplace(recording_id(plan, plan.runs[run]), run);
-  Recorder(folder, plan, launch).work(std::move(wanted), again);
-}
-
-std::vector<std::vector<std::size_t>> batches_of(const Plan& plan,
-                                                 const std::vector<std::size_t>& runs) {
-  std::vector<std::vector<std::size_t>> batches;
-  const bool by_seed = plan.study.recordings && plan.study.redraw == Redraw::noise;
-  for (const std::size_t run : runs) {
-    if (batches.empty() ||
-        (by_seed && plan.runs[batches.back().back()].seed != plan.runs[run].seed))
-      batches.emplace_back();
-    batches.back().push_back(run);
-  }
-  return batches;
-}
-
-RedrawnRecordings::RedrawnRecordings(const Plan& plan) : plan_(plan) {
+Recordings::Recordings(const StudyFolder& folder, const Plan& plan,
+                       const std::vector<std::size_t>& runs, const Launch& launch)
+    : folder_(folder), plan_(plan), launch_(launch) {
   if (!plan.study.recordings) return;
+  std::set<std::string> known;
+  for (const std::size_t run : runs) {
+    const std::string& id = ids_[run] = recording_id(plan, plan.runs[run]);
+    if (known.insert(id).second) wanted_.push_back({id, run});
+    seeds_.try_emplace(plan.runs[run].seed, seeds_.size());
+  }
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     if (plan.cells[plan.runs[i].cell].noise)
       readers_[recording_id(plan, plan.runs[i])].push_back(i);
 }
 
-void RedrawnRecordings::remove_read(const StudyFolder& folder,
-                                    const std::vector<std::size_t>& runs) const {
-  if (readers_.empty()) return;
-  std::set<std::string> ids;
-  for (const std::size_t run : runs) ids.insert(recording_id(plan_, plan_.runs[run]));
-  for (const std::string& id : ids) {
-    const auto readers = readers_.find(id);
-    if (readers == readers_.end()) continue;  // pictures that are not rendered
-    const bool read = std::ranges::all_of(readers->second, [&](std::size_t run) {
-      return folder.state(plan_.runs[run]) == RunState::ok;
-    });
-    std::error_code ignored;  // another process may be faster
-    if (read) std::filesystem::remove_all(folder.recording_path(id), ignored);
-  }
+bool Recordings::are_there_for(std::size_t run) const {
+  return !plan_.study.recordings || there_.contains(ids_.at(run));
+}
+
+bool Recordings::go_on(std::size_t next, std::size_t room, std::size_t ahead) {
+  const auto ended = pool_.take_ended();
+  if (ended) finish(*ended);
+  if (Clock::now() < next_look_) return ended.has_value();
+  next_look_ = Clock::now() + kLook;
+  const std::size_t most = pool_.size() + room;
+  std::erase_if(wanted_, [&](const Wanted& each) {
+    const std::size_t seeds = seeds_before(each, next);
+    return seeds <= 1 &&
+           take_in_hand(each, pool_.size() < (seeds == 0 ? most : std::min(most, ahead)));
+  });
+  return ended.has_value();
+}
+
+/// Returns how many seeds a recording is ahead of a run; 0 if its noise is not redrawn.
+std::size_t Recordings::seeds_before(const Wanted& wanted, std::size_t run) const {
+  if (!readers_.contains(wanted.id)) return 0;
+  const std::size_t own = seeds_.at(plan_.runs[wanted.run].seed);
+  const std::size_t now = seeds_.at(plan_.runs[run].seed);
+  return own > now ? own - now : 0;
+}
+
+/// Returns false if a recording is neither there nor was started.
+bool Recordings::take_in_hand(const Wanted& wanted, bool may_start) {
+  const auto is_there = [&] { return std::filesystem::exists(folder_.recording_path(wanted.id)); };
+  if (is_there()) return there_.insert(wanted.id).second;
+  if (!may_start) return false;
+  auto claimed = folder_.claim_recording(wanted.id);
+  if (!claimed) return false;  // another process makes it
+  if (is_there()) return there_.insert(wanted.id).second;
+  pool_.start(wanted.run, synth_command(plan_, plan_.runs[wanted.run], launch_, *claimed));
+  working_.emplace(wanted.run, *std::move(claimed));
+  return true;
+}
+
+void Recordings::finish(const Ended& ended) {
+  RunFolder& folder = working_.at(ended.key);
+  const Cell& cell = plan_.cells[plan_.runs[ended.key].cell];
+  // The scene is written last.
+  if (ended.end.code != 0 || !std::filesystem::exists(folder.working() / "recording/scene.yaml"))
+    throw DataError(fmt::format("{}: {}: its source cannot be recorded: {}",
+                                plan_.scene_of(cell).where, plan_.describe(cell),
+                                failure_message(folder.log(), ended)));
+  folder.put_into_place();
+  working_.erase(ended.key);
+  there_.insert(ids_.at(ended.key));
+}
+
+void Recordings::remove_if_read(std::size_t run) const {
+  const auto id = ids_.find(run);
+  if (id == ids_.end()) return;
+  const auto readers = readers_.find(id->second);
+  if (readers == readers_.end()) return;  // pictures that are not rendered
+  const bool read = std::ranges::all_of(readers->second, [&](std::size_t reader) {
+    return folder_.state(plan_.runs[reader]) == RunState::ok;
+  });
+  std::error_code ignored;  // another process may be faster
+  if (read) std::filesystem::remove_all(folder_.recording_path(id->second), ignored);
 }
 
 Job job_of(const StudyFolder& folder, const Plan& plan, const PlannedRun& run,

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
-#include <filesystem>
-#include <functional>
+#include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
 #include "run/crew/job.hpp"
+#include "run/crew/process_pool.hpp"
 
 namespace hypotrack::study {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -24,28 +26,48 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// their changes of models and source are the same, noise included.
 std::string recording_id(const Plan& plan, const PlannedRun& run);
 
-/// Makes the recordings of the given runs (indices into the plan), each in a separate process. Also
-/// waits for recordings that other processes make. Calls `again` now and then; it ends the work by
-/// returning false. Throws DataError with the error of a failed recording.
-void make_recordings(const StudyFolder& folder, const Plan& plan,
-                     const std::vector<std::size_t>& runs, const Launch& launch,
-                     const std::function<bool()>& again);
-
-/// Splits runs for work on one batch after the other. Recordings whose noise is redrawn make a
-/// batch of each seed, so that only its recordings need room on the disk.
-std::vector<std::vector<std::size_t>> batches_of(const Plan& plan,
-                                                 const std::vector<std::size_t>& runs);
-
-/// Knows which runs read each recording whose noise is redrawn.
-class RedrawnRecordings {
+/// Makes the recordings that the given runs (indices into the plan) read, each in a process of its
+/// own: those of the next runs first. Recordings whose noise is redrawn need much room on the disk,
+/// so those of at most two seeds are there at a time.
+class Recordings {
  public:
-  explicit RedrawnRecordings(const Plan& plan);
-  /// Removes the recordings of the given runs that no unfinished or failed run of the study reads.
-  void remove_read(const StudyFolder& folder, const std::vector<std::size_t>& runs) const;
+  Recordings(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
+             const Launch& launch);
+
+  /// Returns true if a run may begin: its recording is there, or it reads none.
+  bool are_there_for(std::size_t run) const;
+  /// Returns the number of recordings being made by this process.
+  std::size_t size() const { return pool_.size(); }
+  /// Starts up to `room` recordings of the seed of `next`, the run to be made next, and up to
+  /// `ahead` others. Puts complete ones into place. Returns false if nothing happened. Throws
+  /// DataError with the error of a failed recording.
+  bool go_on(std::size_t next, std::size_t room, std::size_t ahead);
+  /// Removes the recording of a run if its noise was redrawn and the study has all runs that read
+  /// it.
+  void remove_if_read(std::size_t run) const;
 
  private:
+  using Clock = std::chrono::steady_clock;
+  struct Wanted {
+    std::string id;
+    std::size_t run;  ///< a run that reads it
+  };
+
+  std::size_t seeds_before(const Wanted& wanted, std::size_t run) const;
+  bool take_in_hand(const Wanted& wanted, bool may_start);
+  void finish(const Ended& ended);
+
+  const StudyFolder& folder_;
   const Plan& plan_;
-  std::map<std::string, std::vector<std::size_t>> readers_;
+  const Launch& launch_;
+  std::map<std::size_t, std::string> ids_;                   ///< recording of each run
+  std::map<std::string, std::vector<std::size_t>> readers_;  ///< of those whose noise is redrawn
+  std::map<std::int64_t, std::size_t> seeds_;                ///< their order
+  std::vector<Wanted> wanted_;   ///< not begun, in the order of the runs
+  std::set<std::string> there_;  ///< complete
+  Clock::time_point next_look_;
+  std::map<std::size_t, RunFolder> working_;  ///< outlives the processes of pool_
+  ProcessPool pool_;
 };
 
 /// Returns the job of a run: the scene and its settings. The scene of a recording already contains

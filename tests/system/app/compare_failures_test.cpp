@@ -178,6 +178,20 @@ TEST_F(CompareFailureTest, ADatasetOfAnotherResolutionIsFoundBeforeAnythingRuns)
                        {"study.yaml:3:3: box, ", "160", "80"});
 }
 
+TEST_F(CompareFailureTest, ARecordingThatFailsIsNamedWithItsPlaceInTheStudy) {
+  const std::string broken =
+      "{file: box.yaml, set: {source: {type: failing, how: data_error, at: 20, "
+      "source: \"@box.yaml#source\"}, source.source.frames: 60}}";
+  const std::string text = replaced(study(), "{file: box.yaml}", broken) + "recordings: true\n";
+  const Outcome outcome =
+      compare(replaced(text, "frames: 3", "frames: 30"), "out",
+              {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("study.yaml:3:3: box, optimizer.particles 4: its source "
+                                           "cannot be recorded: "),
+                                 HasSubstr("the file is broken")));
+}
+
 TEST_F(CompareFailureTest, AFolderOfSomethingElseIsRefused) {
   std::filesystem::create_directory(path("out"));
   write_text(path("out/thesis.tex"), "a year's work");

@@ -145,6 +145,16 @@ TEST_F(CompareTest, SeedsGetPicturesOfTheirOwnThatAllSettingsShare) {
   EXPECT_EQ(table("results.csv"), table("results.csv", "unrecorded"));
 }
 
+TEST_F(CompareTest, RecordingsMadeAheadOfTheirRunsChangeNoTable) {
+  const std::string recorded = replaced(study(), "seeds: 2", "seeds: 4") + "recordings: true\n";
+  const Outcome one_by_one = compare(recorded, "a", {"--jobs", "1"});
+  ASSERT_EQ(one_by_one.exit_code, 0) << one_by_one.err;
+  const Outcome together = compare(recorded, "b", {"--jobs", "8", "--threads", "1"});
+  ASSERT_EQ(together.exit_code, 0) << together.err;
+  EXPECT_EQ(table("results.csv", "a"), table("results.csv", "b"));
+  EXPECT_THAT(names_in(path("b/recordings")), testing::IsEmpty());
+}
+
 TEST_F(CompareTest, APartOfTheSceneGoesIntoAnother) {
   const std::string text =
       replaced(study(), "{file: box.yaml}", "{file: box.yaml, set: {objective: [\"@objective\"]}}");

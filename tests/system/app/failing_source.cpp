@@ -1,4 +1,4 @@
-// A source that gives the frames of another one, and fails at frame 3.
+// A source that gives the frames of another one, and fails at one frame.
 #include <array>
 #include <csignal>
 #include <memory>
@@ -30,21 +30,23 @@ class Failing : public hypotrack::Source {
  public:
   struct Params {
     How how = How::kException;
+    int at = 3;
     hypotrack::ConfigNode source;
     void visit(hypotrack::ParamVisitor& v) {
       v("how", how, {.help = "it fails"});
+      v("at", at, {.help = "number of the frame"});
       v("source", source, {.help = "the other source", .required = true});
     }
   };
   Failing(const Params& params, hypotrack::PluginContext& context)
-      : how_(params.how), source_(context.make<hypotrack::Source>(params.source)) {}
+      : how_(params.how), at_(params.at), source_(context.make<hypotrack::Source>(params.source)) {}
 
   const std::vector<hypotrack::Camera>& cameras() const override { return source_->cameras(); }
   double frame_rate() const override { return source_->frame_rate(); }
   std::optional<int> frame_count() const override { return 40; }
   std::optional<hypotrack::Frame> next() override {
     std::optional<hypotrack::Frame> frame = source_->next();
-    if (!frame || frame->index != 3) return frame;
+    if (!frame || frame->index != at_) return frame;
     if (how_ == How::kException) throw std::runtime_error("no picture");
     if (how_ == How::kDataError) throw hypotrack::DataError("the file is broken");
     if (how_ == How::kSegfault) raise(SIGSEGV);
@@ -62,6 +64,7 @@ class Failing : public hypotrack::Source {
   }
 
   How how_;
+  int at_;
   std::unique_ptr<hypotrack::Source> source_;
 };
 

@@ -41,7 +41,8 @@ Subprocess::Command command_of(const CrewSettings& settings, const Job& job) {
   auto& words = command.arguments;
   for (const auto& folder : settings.plugin_path)
     words.insert(words.end(), {"--plugin-path", folder.string()});
-  words.insert(words.end(), {"run", job.scene.string(), "--out", job.out.string()});
+  words.insert(words.end(), {job.check ? "validate" : "run", job.scene.string()});
+  if (!job.check) words.insert(words.end(), {"--out", job.out.string()});
   for (const std::string& assignment : job.set) words.insert(words.end(), {"--set", assignment});
   if (job.frames) words.insert(words.end(), {"--frames", fmt::format("{}", *job.frames)});
   command.directory = settings.directory;

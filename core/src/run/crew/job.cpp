@@ -29,6 +29,7 @@ std::string line_of(const Job& job, double time_limit_s) {
                {"set", job.set},          {"out", job.out.string()},
                {"log", job.log.string()}, {"time_limit_s", time_limit_s}};
   if (job.frames) json["frames"] = *job.frames;
+  if (job.check) json["check"] = true;
   try {
     return json.dump();
   } catch (const Json::type_error&) {
@@ -46,6 +47,7 @@ Job parse_job(const std::string& line, double& time_limit_s) {
     job.out = std::string(json.at("out"));
     job.log = std::string(json.at("log"));
     if (json.contains("frames")) job.frames = json.at("frames").get<int>();
+    job.check = json.value("check", false);
     time_limit_s = json.at("time_limit_s");
     return job;
   } catch (const Json::exception& error) {

@@ -21,6 +21,7 @@ struct Job {
   std::filesystem::path log = {};            ///< file for what the run says
   std::optional<int> frames = std::nullopt;  ///< stop after this many
   std::optional<int> gpu = std::nullopt;     ///< number of the GPU that its scene takes, if any
+  bool check = false;                        ///< only open the scene and look at its first frame
   /// More descriptors for its process, if it has one of its own.
   std::vector<std::pair<int, int>> descriptors = {};
 };

@@ -309,7 +309,8 @@ TEST(JobLine, ReadsAsItWasWritten) {
                 .set = {"seed=3", "judge={type: none}"},
                 .out = "o",
                 .log = "l",
-                .frames = 5};
+                .frames = 5,
+                .check = true};
   double limit_s = 0;
   const std::string line = line_of(job, 2.5);
   EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -318,6 +319,7 @@ TEST(JobLine, ReadsAsItWasWritten) {
   EXPECT_EQ(read.scene, job.scene);
   EXPECT_EQ(read.set, job.set);
   EXPECT_EQ(read.frames, 5);
+  EXPECT_TRUE(read.check);
   EXPECT_EQ(limit_s, 2.5);
   EXPECT_THROW(parse_job("{}", limit_s), DataError);
   EXPECT_THROW(parse_answer("ready"), DataError);
