@@ -1,5 +1,6 @@
 // The hidden command that a crew starts for a GPU (run/crew/).
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 
@@ -23,6 +24,7 @@
 #include "hypotrack/plugin.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
+#include "model/import/imported_meshes.hpp"
 #include "plugin/running_plugin.hpp"
 #include "run/crew/job.hpp"
 #include "run/run_scene.hpp"
@@ -55,13 +57,22 @@ class LoggedRun final : public RunWatcher {
   Clock::time_point begin_ = Clock::now();
 };
 
+/// Keeps memory that was freed: to give it back interrupts every thread of the process.
+void keep_freed_memory() {
+  (void)mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the largest that glibc takes
+  (void)mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  (void)mallopt(M_TOP_PAD, 16 << 20);
+}
+
 /// Makes the jobs that come through a socket, each in a thread, and answers.
 class Worker {
  public:
   Worker(std::optional<int> gpu, const CommonOptions& common) : gpu_(gpu), common_(common) {}
 
   void serve() {
+    keep_freed_memory();
     if (!take_gpu()) return;
+    keep_imported_meshes();
     LineBuffer lines;
     std::array<char, 4096> chunk;
     for (;;) {

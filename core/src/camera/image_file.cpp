@@ -80,6 +80,10 @@ ReadImage read_mask(const std::filesystem::path& file) {
   return within_memory(file, [&]() -> ReadImage {
     ReadImage read = decode_upright(file);
     if (!read.problem.empty()) return read;
+    if (read.image.channels() == 1) {
+      read.image = read.image != 0;
+      return read;
+    }
     std::vector<cv::Mat> channels;
     cv::split(to_bgr(read.image), channels);
     cv::Mat any = channels[0] != 0;

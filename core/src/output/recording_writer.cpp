@@ -153,7 +153,8 @@ void RecordingWriter::add_pictures(const Frame& frame) {
     if (!view.color.empty()) write_image(side, frame.index, view.color, extension);
     if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask, lossless);
     if (!view.depth.empty()) {
-      write_image(side + "_depth", frame.index, stored_depth(view.depth));
+      const char* const deep = format_ == PictureFormat::bmp ? ".pgm" : ".png";
+      write_image(side + "_depth", frame.index, stored_depth(view.depth), deep);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "model/import/format.hpp"
+#include "model/import/imported_meshes.hpp"
 #include "model/import/process.hpp"
 #include "model/import/steps.hpp"
 
@@ -69,9 +70,11 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const MeshImportOpti
     throw DataError(fmt::format("{}: the scale of a mesh must be positive, not {}", path.string(),
                                 options.scale));
   }
-  MeshFile file{path, options, {}};
-  read_scene(file);
-  return convert_mesh(file);
+  return kept_mesh(path, options, [&] {
+    MeshFile file{path, options, {}};
+    read_scene(file);
+    return convert_mesh(file);
+  });
 }
 
 }  // namespace hypotrack
