@@ -103,7 +103,9 @@ class Worker {
       return false;
     }
     cuda::page_lock_images(*gpu_);  // before threads make images
-    answer({Kind::ready, cuda::Device(*gpu_).name()});
+    std::string name = cuda::Device(*gpu_).name();
+    if (!cuda::claim_gpu(*gpu_)) name += ", which another hypotrack uses, too";
+    answer({Kind::ready, name});
     return true;
   }
 

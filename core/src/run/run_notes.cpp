@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cost/cuda/backend_text.hpp"
+#include "cost/cuda/device.hpp"
 #include "track/faults/fault_text.hpp"
 
 namespace hypotrack::internal {
@@ -16,6 +18,16 @@ void RunNotes::add(const Solution& solution, const ClockTimes& clock) {
   look_at_device(fmt::format("frame {}", solution.frame));
   say_plugin_lines();
   look_at_outputs(clock);
+}
+
+void RunNotes::look_at_gpu() {
+  const auto gpu = cuda::gpu_in(tracker_.backend());
+  if (!gpu || cuda::claim_gpu(*gpu)) return;
+  watcher_.say(
+      fmt::format("note: another hypotrack uses GPU {}; programs take turns on it, which makes "
+                  "both slow. `hypotrack "
+                  "run SCENE... --jobs N` tracks several scenes in one program",
+                  *gpu));
 }
 
 void RunNotes::add_fault(const Solution& solution) {

@@ -26,6 +26,8 @@ class RunNotes {
         results_(results),
         start_said_(!given_start) {}
 
+  /// Says that the run shares its GPU with another program.
+  void look_at_gpu();
   /// Looks at a frame that was tracked and whose results were added.
   void add(const Solution& solution, const ClockTimes& clock);
   /// Looks for a device that failed; `where`: `frame 12`.

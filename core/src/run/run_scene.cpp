@@ -220,6 +220,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
        {problem_of_pair(opened.source->cameras()), tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
   RunNotes notes(watcher, tracker, given_start, *opened.plugin_notes, results.get());
+  notes.look_at_gpu();
   notes.say_plugin_lines();
   RunResult result;
   ClockTimes clock;

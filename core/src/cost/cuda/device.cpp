@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
+#include "base/claim.hpp"
 #include "cost/cuda/device_code.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"
@@ -53,6 +56,15 @@ std::string why_not_this_device(int index) {
       "hypotrack was built for other GPUs than {} of compute capability {}.{} (set "
       "CMAKE_CUDA_ARCHITECTURES={}{})",
       properties.name, properties.major, properties.minor, properties.major, properties.minor);
+}
+
+bool claim_gpu(int index) {
+  std::array<char, 32> address{};  // tells GPUs apart whatever CUDA_VISIBLE_DEVICES says
+  const cudaError_t status =
+      cudaDeviceGetPCIBusId(address.data(), static_cast<int>(address.size()), index);
+  if (status == cudaSuccess) return claim(fmt::format("gpu/{}", address.data()));
+  (void)cudaGetLastError();
+  return true;
 }
 
 std::optional<std::size_t> free_memory(int index) {

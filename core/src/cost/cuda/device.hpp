@@ -19,6 +19,10 @@ std::string why_no_device(int index = 0);
 /// hypotrack was not built for it. Empty if it can. Takes some of the GPU's memory.
 std::string why_not_this_device(int index);
 
+/// Claims a GPU for this process (base/claim.hpp). Returns false if another hypotrack uses it, so
+/// that the two take turns.
+bool claim_gpu(int index);
+
 /// Returns the free bytes of a GPU's memory, or nothing if there is no such GPU or it does not
 /// answer. Makes it the GPU of this thread.
 std::optional<std::size_t> free_memory(int index = 0);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "base/exported.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Claims something of this machine, by a name of up to 80 characters, for as long as this process
+/// lives. Returns false if another hypotrack has claimed it; true if that cannot be told.
+bool claim(const std::string& name);
+
+}  // namespace internal
+}  // namespace hypotrack
