@@ -67,8 +67,7 @@ void add_reliability_command(const Command& root, int& exit_code) {
   auto options = std::make_shared<ReliabilityOptions>();
   const Command command =
       root.add_command("reliability", "Compare predicted errors of landmarks with true ones");
-  command.add("runs", &options->runs,
-              "Folders of runs with tracker.uncertainty.enabled and a known truth",
+  command.add("runs", &options->runs, "Folders of runs with uncertainty.enabled and a known truth",
               {.required = true});
   command.add("--out", &options->out, "Plot to write (SVG)",
               {.show_default = true, .check = file_name()});

@@ -14,7 +14,7 @@ import tempfile
 
 SWARMS = [64, 128, 256, 512, 1024, 2048, 4096, 8192]
 STARTS = [1, 2, 4, 8, 16, 32, 64, 128, 256]
-PLAIN = ["judge=none", "tracker.uncertainty.enabled=false", "budget.evaluations=0"]
+PLAIN = ["judge=none", "uncertainty.enabled=false", "budget.evaluations=0"]
 
 
 def median_ms(options, optimizer):

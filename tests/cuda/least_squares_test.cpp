@@ -129,7 +129,7 @@ TEST_F(LeastSquaresOnDevice, LooksForOneOfTwoHands) {
 }
 
 TEST_F(LeastSquaresOnDevice, GivesSigmasToo) {
-  const std::vector<std::string> sigmas{"tracker.uncertainty.enabled=true"};
+  const std::vector<std::string> sigmas{"uncertainty.enabled=true"};
   const Tracked cpu = track("cpu", kNumerical, sigmas), gpu = track("cuda", kNumerical, sigmas);
   EXPECT_LT(gpu.error, 1.5);
   EXPECT_NEAR(gpu.error, cpu.error, 0.5);

@@ -25,9 +25,8 @@ class FailingDeviceTest : public AppTest, public testing::WithParamInterface<Cas
         replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", GetParam().optimizer) +
         "evaluate: {backend: cuda, on_device_loss: " + on_loss + "}\n";
     Start start;
-    start.arguments = {"run",   scene(text),
-                       "--out", path("out").string(),
-                       "--set", "tracker.recovery.enabled=false"};
+    start.arguments = {
+        "run", scene(text), "--out", path("out").string(), "--set", "recovery.enabled=false"};
     start.environment = {std::string("CUDA_ON_CPU_FAULT=") + GetParam().fault + ":" +
                          std::to_string(call)};
     return run_program(start);

@@ -41,8 +41,10 @@ class HYPOTRACK_API ConfigNode {
   /// and so is the item after a list's last one.
   /// Throws ConfigError as load() does, and on overrides that do not parse or references that do
   /// not exist.
+  /// Keys that have another place since version 0.2 are moved there; `notes` then gets a line.
   static ConfigNode load_scene(const std::filesystem::path& file,
-                               std::span<const std::string> overrides = {});
+                               std::span<const std::string> overrides = {},
+                               std::vector<std::string>* notes = nullptr);
 
   /// Reads a study file as load() does, joined with the study that it `extends`. Throws
   /// ConfigError.

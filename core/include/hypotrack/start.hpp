@@ -18,7 +18,7 @@ namespace hypotrack {
 /// pose is wanted.
 using TakePose = std::function<bool(const Eigen::VectorXd& parameters)>;
 
-/// Settings of GlobalSearch::find(). A 0 stands for the value in `tracker.recovery`.
+/// Settings of GlobalSearch::find(). A 0 stands for the value in `recovery`.
 struct GlobalSearchSettings {
   int hypotheses = 0;  ///< poses evaluated per place
   int refined = 0;     ///< best of them refined by least squares

@@ -40,13 +40,17 @@ ConfigNode ConfigNode::load(const std::filesystem::path& file) {
 }
 
 ConfigNode ConfigNode::load_scene(const std::filesystem::path& file,
-                                  std::span<const std::string> overrides) {
+                                  std::span<const std::string> overrides,
+                                  std::vector<std::string>* notes) {
   auto root = detail::read_yaml_file(file);
   detail::Includes includes(file);
+  includes.move_former(*root);
   const std::vector<std::string> left = detail::take_tracker(*root, overrides, includes);
   std::vector<std::string> path;
   includes.resolve(root, path);
   for (const std::string& assignment : left) detail::apply_override(*root, assignment);
+  includes.move_former(*root);
+  if (notes) *notes = includes.notes();
   return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
 }
 

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
 #include <system_error>
 #include <utility>
 
+#include "config/former_keys.hpp"
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
@@ -112,6 +115,10 @@ std::unique_ptr<YamlNode> Includes::included(const std::filesystem::path& file,
   return clone(*found);
 }
 
+void Includes::move_former(YamlNode& document) {
+  std::ranges::move(move_former_keys(document), std::back_inserter(notes_));
+}
+
 const YamlNode& Includes::document(const std::filesystem::path& file) {
   const auto [at, is_new] = documents_.try_emplace(identity(file));
   if (!is_new && !at->second)
@@ -119,6 +126,7 @@ const YamlNode& Includes::document(const std::filesystem::path& file) {
         fmt::format("{} includes this file itself; write out one of the two", file.string()));
   if (is_new) {
     auto root = read_yaml_file(file);
+    move_former(*root);
     take_tracker(*root, {}, *this);
     std::vector<std::string> path;
     resolve(root, path);

@@ -29,8 +29,12 @@ class Includes {
   /// Replaces the includes in `value`, which stands at `path`, recursively. Throws ConfigError.
   void resolve(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path);
 
-  /// Returns what a file has, its includes replaced. Throws ConfigError, also if the file includes
-  /// one that is being read.
+  /// Moves the former keys of a document and keeps the notes on them.
+  void move_former(YamlNode& document);
+  const std::vector<std::string>& notes() const { return notes_; }
+
+  /// Returns what a file has, its includes replaced and its former keys moved. Throws ConfigError,
+  /// also if the file includes one that is being read.
   const YamlNode& document(const std::filesystem::path& file);
 
  private:
@@ -40,6 +44,7 @@ class Includes {
   /// Documents with their includes replaced; null while one is being read.
   std::map<std::filesystem::path, std::unique_ptr<YamlNode>> documents_;
   std::size_t values_ = 0;
+  std::vector<std::string> notes_;
 };
 
 /// Replaces the includes in `value`, which stands at `path`. Throws ConfigError.
@@ -48,13 +53,13 @@ void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string>
 /// Adds the keys of a tracker file to a document that names one, and returns the overrides that are
 /// left to apply.
 ///
-/// A document names one as `tracker: "@trackers/recommended"`, or by `from` in the map `tracker`;
-/// the last override that does so wins. A tracker file is a map with the objective, the optimizer
-/// and any other key of a scene but models and source. `@trackers/recommended` is
-/// trackers/recommended.yaml in the document's folder, or among the configurations that come with
-/// hypotrack; `@FILE.yaml` is a path, and one of a scene is left to Includes::resolve(). Keys of
-/// the document stay, and maps without a `type` are joined. An override replaces all keys of a
-/// tracker. Throws ConfigError.
+/// A document names one as `tracker: "@trackers/recommended"`; the last override that does so wins.
+/// A tracker file is a map with the objective, the optimizer and any other key of a scene but
+/// models and source. `@trackers/recommended` is trackers/recommended.yaml in the document's
+/// folder, or among the configurations that come with hypotrack; `@FILE.yaml` is a path, and one of
+/// a scene is left to Includes::resolve(). Keys of the document stay, and maps without a `type` are
+/// joined. An override replaces all keys of a tracker. Throws
+/// ConfigError.
 std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::string> overrides,
                                       Includes& includes);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -19,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keys that an override replaces. What is left belongs to the recording or the machine.
-constexpr std::array<std::string_view, 9> kKeysOfTrackers{"objective", "optimizer",   "budget",
-                                                          "tile",      "photometric", "search",
-                                                          "judge",     "tracker",     "smoothing"};
+constexpr std::array<std::string_view, 12> kKeysOfTrackers{
+    "objective", "optimizer", "budget", "tile",     "photometric", "search",
+    "judge",     "tracker",   "status", "recovery", "uncertainty", "smoothing"};
 
 /// Returns the reference that a value of the key `tracker` is or has at `from`.
 std::optional<FileName> name_in(const YamlNode& value) {
@@ -97,6 +98,7 @@ bool take_from_override(YamlNode& document, const std::string& assignment, Inclu
   if (value->kind == YamlNode::Kind::kMap) {
     remove(*value, "from");
     document.add("tracker", std::move(value));
+    includes.move_former(document);
   }
   join(document, *tracker);
   return true;
@@ -122,10 +124,7 @@ std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::s
   const auto name = own ? name_in(*own->value) : std::nullopt;
   const YamlNode* tracker = name ? read(*name, includes) : nullptr;
   if (!tracker) return left;
-  if (own->value->kind == YamlNode::Kind::kMap)
-    remove(*own->value, "from");
-  else
-    remove(document, "tracker");
+  remove(document, "tracker");
   join(document, *tracker);
   return left;
 }

@@ -10,7 +10,7 @@ namespace hypotrack::internal {
 std::string TermResiduals::why_none(const std::vector<ObjectiveTerm>& terms) {
   constexpr const char* kInstead =
       "take an optimizer that needs costs only, such as `optimizer: {type: pso}`, and leave "
-      "tracker.uncertainty off and smoothing.fixed_lag off";
+      "uncertainty off and smoothing.fixed_lag off";
   for (const ObjectiveTerm& term : terms) {
     if (term.weight == 0) continue;
     if (term.weight < 0) {

@@ -51,7 +51,7 @@ std::map<int, std::string> status_by_frame(const fs::path& file) {
 void add_run(const fs::path& run, UncertaintyCalibration& calibration) {
   expect_finished_run(run);
   const SigmaTable sigmas(
-      table_in(run, "uncertainty.csv", " with tracker.uncertainty.enabled, which has ended"));
+      table_in(run, "uncertainty.csv", " with uncertainty.enabled, which has ended"));
   const auto estimates = landmarks_by_frame(table_in(run, "joints.csv", ""), sigmas.names());
   const auto truths = landmarks_by_frame(
       table_in(run, "truth_landmarks.csv", " whose source knows the truth"), sigmas.names());

@@ -278,7 +278,7 @@ void Opening::start() {
       resolved.set_list("from", records);
     record_.set("init", resolved);
   }
-  ConfigNode from = file_.tracker.recovery.from;
+  ConfigNode from = file_.status.recovery.from;
   const bool is_same = !from.defined() || (from.scalar() == kStartAuto && word == kStartAuto);
   if (is_same && parts.begins_by_looking) return;
   if (!from.defined()) from = ConfigNode::parse("global_search", "the default of recovery.from");
@@ -315,7 +315,7 @@ OpenedScene Opening::finish() {
   session_.parts.evaluate = file_.evaluate;
   session_.parts.photometric = file_.photometric;
   session_.parts.search = file_.search;
-  session_.parts.status = file_.tracker;
+  session_.parts.status = file_.status;
   session_.parts.one_euro = file_.output.smoothing;
   session_.parts.fixed_lag = file_.smoothing.fixed_lag;
   session_.parts.budget.evaluations = file_.budget.evaluations;
@@ -379,7 +379,7 @@ std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& ses
   if (!parts.fixed_lag.enabled) return nullptr;
   if (parts.status.uncertainty.enabled)
     throw ConfigError(
-        "smoothing.fixed_lag.enabled and tracker.uncertainty.enabled are both on, but sigmas are "
+        "smoothing.fixed_lag.enabled and uncertainty.enabled are both on, but sigmas are "
         "of states as they were found; switch one of them off");
   return std::make_unique<FixedLagSmoother>(
       *session.scene, parts.objective, parts.evaluate, parts.fixed_lag,

@@ -1,7 +1,6 @@
 #include "session/scene_file.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <optional>
@@ -24,37 +23,6 @@ void refuse_old_keys(const ConfigNode& root) {
       "{}: found the key '{}', which is called 'smoothing.fixed_lag' now; write `smoothing: "
       "{{fixed_lag: {{...}}}}` with the same settings, or --set smoothing.fixed_lag.KEY=VALUE",
       root.where_key(kOld), kOld));
-}
-
-/// Moves the keys of `tracker` that belong to `judge` there.
-void take_former_keys(LoadedScene& scene) {
-  FormerJudgeKeys& former = scene.file.tracker.former;
-  const ConfigNode written = scene.root.get("tracker");
-  std::vector<std::string> keys;
-  std::string settings;
-  if (former.evidence) keys.emplace_back("tracker.evidence");
-  const auto move = [&](std::string_view key, const std::optional<double>& value) {
-    if (!value) return;
-    keys.push_back(fmt::format("tracker.{}", key));
-    settings += fmt::format(", {}: {}", key, *value);
-  };
-  move("tracked_above", former.tracked_above);
-  move("surely_above", former.surely_above);
-  move("first_above", former.first_above);
-  move("confirmed_above", former.confirmed_above);
-  move("uncertain_above", former.uncertain_above);
-  if (keys.empty()) return;
-  const std::string judge = former.evidence.value_or(true)
-                                ? fmt::format("{{type: {}{}}}", kUsualJudge, settings)
-                                : std::string(kNoJudge);
-  if (scene.root.get("judge").defined())
-    throw ConfigError(
-        fmt::format("{}: found {} beside `judge`, which has replaced it; leave it out",
-                    written.where(), fmt::join(keys, ", ")));
-  scene.notes.push_back(fmt::format("{}: `judge` has replaced {}; write `judge: {}`",
-                                    written.where(), fmt::join(keys, ", "), judge));
-  scene.file.judge = ConfigNode::parse(judge, written.where() + ": tracker").placed_at("judge");
-  former = {};
 }
 
 /// Returns whether a word names a start that takes its file from `init.file`.
@@ -88,7 +56,7 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
 
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
   LoadedScene scene;
-  scene.root = ConfigNode::load_scene(path, overrides);
+  scene.root = ConfigNode::load_scene(path, overrides, &scene.notes);
   if (!scene.root.is_map())
     throw ConfigError(fmt::format(
         "{}: a scene is a map with models, source, objective and optimizer", scene.root.where()));
@@ -98,7 +66,11 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
         path.string()));
   refuse_old_keys(scene.root);
   scene.file = ParamReader(scene.root).read<SceneFile>();
-  take_former_keys(scene);
+  if (scene.file.tracker.defined())
+    throw ConfigError(
+        fmt::format("{}: tracker: expected the name of a tracker file, as "
+                    "\"@trackers/recommended\"",
+                    scene.file.tracker.where()));
   const InitSettings& init = scene.file.init;
   if (init.from.is_map() && (!init.file.empty() || init.frame != 0))
     throw ConfigError(fmt::format(

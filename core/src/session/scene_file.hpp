@@ -78,7 +78,7 @@ struct InitSettings {
 };
 
 /// Returns the maps, each with a `type`, that starts are made from: `from` (of `init` or of
-/// `tracker.recovery`), or what its words stand for. `written` is the scene's `init`.
+/// `recovery`), or what its words stand for. `written` is the scene's `init`.
 std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written);
 
 /// The judge of scenes that name none, and the word for none.
@@ -142,7 +142,8 @@ struct SceneFile {
   PhotometricSettings photometric;
   SearchSettings search;
   ConfigNode judge = ConfigNode::parse(kUsualJudge, "the default of judge");
-  StatusSettings tracker;
+  StatusSettings status;
+  ConfigNode tracker;  ///< undefined: its file's keys are in the others
   SmoothingSettings smoothing;
   ShapeEstimateSettings shape;
   InitSettings init;
@@ -166,7 +167,11 @@ struct SceneFile {
     v("judge", judge,
       {.help = "the name of a judge or {type, ...}: who says from the pictures whether a pose is "
                "right; none: solutions are judged by their costs, without recovery"});
-    v("tracker", tracker, {.help = "status, recovery and uncertainty"});
+    v("tracker", tracker,
+      {.help = "\"@trackers/NAME\": a file that has the keys from objective to uncertainty"});
+    v("status", status, {.help = "when models count as tracked, uncertain or lost"});
+    v("recovery", status.recovery, {.help = "how lost models are found again"});
+    v("uncertainty", status.uncertainty, {.help = "how far off each landmark may be"});
     v("smoothing", smoothing,
       {.help = "correction of states by later frames, before they are written"});
     v("shape", shape, {.help = "estimation of the models' shapes"});

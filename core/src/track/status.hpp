@@ -7,7 +7,6 @@
 #include "hypotrack/params.hpp"
 #include "hypotrack/solution.hpp"
 #include "tile/foreground_overlap.hpp"
-#include "track/former_judge_keys.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/recovery_settings.hpp"
 #include "track/uncertainty_settings.hpp"
@@ -15,7 +14,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// `tracker:` of a scene.
+/// `status:` of a scene, and what is in its `recovery` and `uncertainty`.
 struct StatusSettings {
   MotionLimits motion;
   RecoverySettings recovery;
@@ -30,10 +29,8 @@ struct StatusSettings {
   // Of the scene's judge, which has its own section.
   bool judged = false;  ///< by a judge, who looks at the pictures; false: by costs alone
   JudgeThresholds thresholds = {};
-  FormerJudgeKeys former = {};
   void visit(ParamVisitor& v) {
     v("motion", motion, {.help = "how fast models move at most"});
-    v("recovery", recovery, {.help = "how lost models are found again"});
     v("history", history,
       {.help = "past frames whose costs say what to expect", .min = 5, .max = 10000});
     v("outlier", outlier,
@@ -57,11 +54,9 @@ struct StatusSettings {
        .to_si = kMillimetre});
     v("lost_sigma_mm", lost_sigma,
       {.help = "the same for lost", .min = 1e-3, .max = 1e6, .unit = "mm", .to_si = kMillimetre});
-    v("uncertainty", uncertainty, {.help = "how far off each landmark may be"});
     v("check_pictures", check_pictures,
       {.help = "do not search frames with frozen, exchanged, black, white or doubled views, and "
                "report jumps of brightness"});
-    former.visit(v);
   }
 };
 

@@ -6,7 +6,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// `tracker.uncertainty:` of a scene. Widths are one standard deviation.
+/// `uncertainty:` of a scene. Widths are one standard deviation.
 /// docs/results/uncertainty.md says what the defaults were fitted to.
 struct UncertaintySettings {
   bool enabled = false;

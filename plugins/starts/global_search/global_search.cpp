@@ -9,17 +9,17 @@ class Global final : public Start {
     GlobalSearchSettings settings;
     void visit(ParamVisitor& v) {
       v("hypotheses", settings.hypotheses,
-        {.help = "poses evaluated per place; 0: as tracker.recovery says, and six times that for "
+        {.help = "poses evaluated per place; 0: as recovery says, and six times that for "
                  "a model that was never seen",
          .min = 0,
          .max = 1e6});
       v("refined", settings.refined,
-        {.help = "best of them refined by least squares; 0: as tracker.recovery says, and six "
+        {.help = "best of them refined by least squares; 0: as recovery says, and six "
                  "times that for a model that was never seen",
          .min = 0,
          .max = 1e4});
       v("searched", settings.searched,
-        {.help = "best of those searched by the scene's optimizer; 0: as tracker.recovery says, "
+        {.help = "best of those searched by the scene's optimizer; 0: as recovery says, "
                  "and twice that for a model that was never seen",
          .min = 0,
          .max = 100});

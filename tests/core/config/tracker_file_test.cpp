@@ -19,7 +19,7 @@ class TrackerFile : public test::SceneFolder {
           "optimizer: {type: pso, particles: 16}\n"
           "budget: {evaluations: 32, seconds: 1}\n"
           "judge: plain\n"
-          "tracker: {history: 40}\n");
+          "status: {history: 40}\n");
   }
 };
 
@@ -27,7 +27,8 @@ TEST_F(TrackerFile, GivesASceneAllItsKeys) {
   const ConfigNode root = load("models: []\ntracker: \"@trackers/quick\"\nseed: 1\n");
   EXPECT_EQ(root.get("objective").at(1).get("type").scalar(), "skin");
   EXPECT_EQ(root.get("optimizer").get("particles").scalar(), "16");
-  EXPECT_EQ(root.get("tracker").to_yaml(), "history: 40\n");
+  EXPECT_EQ(root.get("status").to_yaml(), "history: 40\n");
+  EXPECT_FALSE(root.get("tracker").defined());
   EXPECT_EQ(root.get("judge").scalar(), "plain");
   EXPECT_EQ(root.get("seed").scalar(), "1");
   EXPECT_EQ(root.get("optimizer").where(), file("trackers/quick.yaml").string() + ":2:12");
@@ -35,11 +36,11 @@ TEST_F(TrackerFile, GivesASceneAllItsKeys) {
 
 TEST_F(TrackerFile, LeavesTheKeysOfTheSceneAsTheyAre) {
   const ConfigNode root = load(
-      "tracker: {from: \"@trackers/quick.yaml\", patience: 3}\n"
+      "tracker: \"@trackers/quick.yaml\"\nstatus: {patience: 3}\n"
       "budget: {evaluations: 64}\nobjective: {type: skin}\n");
   EXPECT_EQ(root.get("budget").to_yaml(), "evaluations: 64\nseconds: 1\n");
   EXPECT_EQ(root.get("objective").to_yaml(), "type: skin\n");
-  EXPECT_EQ(root.get("tracker").to_yaml(), "patience: 3\nhistory: 40\n");
+  EXPECT_EQ(root.get("status").to_yaml(), "patience: 3\nhistory: 40\n");
 }
 
 TEST_F(TrackerFile, IsNotMixedWithAPartOfAnotherType) {
@@ -54,13 +55,13 @@ TEST_F(TrackerFile, OfAnOverrideReplacesTheWholeTrackerOfTheScene) {
       "judge: none\nseed: 1\n";
   const std::string name = "@" + file("trackers/quick").string();
   for (const std::string& value : {name, "\"" + name + "\"", "{from: \"" + name + "\"}"}) {
-    const ConfigNode root = load(scene, {"tracker=@none", "optimizer.particles=8",
-                                         "tracker=" + value, "tracker.patience=3"});
+    const ConfigNode root = load(
+        scene, {"tracker=@none", "optimizer.particles=8", "tracker=" + value, "status.patience=3"});
     EXPECT_EQ(root.get("objective").at(0).get("type").scalar(), "colors") << value;
     EXPECT_EQ(root.get("optimizer").get("particles").scalar(), "8") << value;
     EXPECT_FALSE(root.get("search").defined()) << value;
     EXPECT_EQ(root.get("judge").scalar(), "plain") << value;
-    EXPECT_EQ(root.get("tracker").to_yaml(), "history: 40\npatience: 3\n") << value;
+    EXPECT_EQ(root.get("status").to_yaml(), "history: 40\npatience: 3\n") << value;
     EXPECT_EQ(root.get("seed").scalar(), "1") << value;
   }
 }

@@ -28,7 +28,7 @@ source:
     - {frame: 3, pose: {box: {position_mm: [10, 5, 410]}}}
 objective: {type: stereo_color, direction: both}
 optimizer: {type: pso, particles: 16, generations: 8}
-tracker: {recovery: {enabled: false}}
+recovery: {enabled: false}
 search: {second_look: 0}
 tile: {size: 64}
 init: {from: truth}

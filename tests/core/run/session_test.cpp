@@ -172,10 +172,9 @@ TEST_F(SessionTest, RefusesToGoOnAfterAStartThatFailed) {
   std::vector<Frame> given = frames();
   for (Camera& camera : cameras_) camera.width = camera.height = 0;
   Session session(scene(std::string(kRest) + kStart +
-                        "tracker: {uncertainty: {enabled: true}}\nbudget: {evaluations: 20}\n"));
+                        "uncertainty: {enabled: true}\nbudget: {evaluations: 20}\n"));
   Tracker tracker = session.tracker(cameras_);
-  EXPECT_THAT(message_of<ConfigError>([&] { tracker.track(given[0]); }),
-              HasSubstr("tracker.uncertainty"));
+  EXPECT_THAT(message_of<ConfigError>([&] { tracker.track(given[0]); }), HasSubstr("uncertainty"));
   EXPECT_THAT(message_of<DataError>([&] { tracker.track(given[0]); }),
               HasSubstr("could not start"));
 }

@@ -22,7 +22,7 @@ source:
     - {frame: 0, pose: {box: {position_mm: [0, 0, 400]}}}
     - {frame: 3, pose: {box: {position_mm: [10, 5, 410]}}}
 objective: {type: stereo_color, direction: both}
-tracker: {recovery: {enabled: false}}
+recovery: {enabled: false}
 search: {second_look: 0}
 tile: {size: 64}
 init: {from: truth}

@@ -362,7 +362,7 @@ TEST(Tracker, TakesWhatSigmasNeedOffTheBudgetOfTheSearch) {
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 100);
   EXPECT_EQ(fixture.optimizer->budgets.front(), 100 - 13);  // 2 * 6 numbers of a box, and one
   EXPECT_THAT(test::message_of<ConfigError>([&] { fixture.make(1, 25); }),
-              AllOf(HasSubstr("tracker.uncertainty takes 13 evaluations"), HasSubstr("which is 25"),
+              AllOf(HasSubstr("uncertainty takes 13 evaluations"), HasSubstr("which is 25"),
                     HasSubstr("budget.evaluations 26 or more")));
 }
 
@@ -371,7 +371,7 @@ TEST(Tracker, NeedsResidualsToSayHowFarOffLandmarksMayBe) {
   fixture.status.uncertainty.enabled = true;
   fixture.target->offers_residuals = false;
   EXPECT_THAT(test::message_of<ConfigError>([&] { fixture.make(1); }),
-              AllOf(HasSubstr("offers no residuals"), HasSubstr("leave tracker.uncertainty off")));
+              AllOf(HasSubstr("offers no residuals"), HasSubstr("leave uncertainty off")));
 }
 
 TEST(Tracker, IsUncertainWhereSigmasAreLarge) {

@@ -104,7 +104,7 @@ TEST_F(BadInputTest, ASourceWhoseTimeStandsStillIsTrackedInItsFrameRate) {
                 "source: {type: broken, frames: 5, fault: time_stands_still}\n");
   const Outcome outcome =
       run(scene, {"--plugin-path", (build_dir() / "tests/broken_plugins").string(), "--set",
-                  "tracker.check_pictures=false"});
+                  "status.check_pictures=false"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("note: frame 1: its time is not after that of the frame"));
   EXPECT_THAT(read_text(path("out/summary.json")), HasSubstr("\"time_back\": 4"));

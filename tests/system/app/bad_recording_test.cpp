@@ -63,14 +63,14 @@ TEST_F(BadRecordingTest, ACalibrationOfOtherCamerasIsNotTrackedBesideTheMasks) {
                                "all masks, and such a frame counts as uncertain"),
                      HasSubstr("calibration"));
   // The pictures alone say that the cameras are exchanged.
-  const std::string unchecked = "tracker.check_pictures=false";
+  const std::string unchecked = "status.check_pictures=false";
   const Outcome outcome = track({"--set", "judge=none", "--set", unchecked});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, note);
   EXPECT_THAT(outcome.out,
               HasSubstr("5 frames (0 tracked, 5 uncertain, 0 lost, 0 absent, 0 missing)"));
   EXPECT_THAT(run_program({"validate", recorded("scene.yaml").string()}).err, note);
-  EXPECT_THAT(track({"--set", "judge=none", "--set", unchecked, "--set", "tracker.patience=3"}).out,
+  EXPECT_THAT(track({"--set", "judge=none", "--set", unchecked, "--set", "status.patience=3"}).out,
               HasSubstr("(0 tracked, 2 uncertain, 3 lost"));
 }
 

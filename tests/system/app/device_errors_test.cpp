@@ -22,7 +22,7 @@ class LostDeviceTest : public AppTest {
 
   Outcome run_lost(const std::string& text) const {
     return run(text, {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string(),
-                      "--set", "tracker.recovery.enabled=false"});
+                      "--set", "recovery.enabled=false"});
   }
 };
 

@@ -60,7 +60,7 @@ TEST_F(FrameFaultsTest, AreNotedOnceCountedAndInTheTable) {
 
 TEST_F(FrameFaultsTest, AreSearchedWhereTheSceneSaysSo) {
   const Outcome outcome =
-      run_with("frames: [2, 3], kind: exchanged", {"--set", "tracker.check_pictures=false"});
+      run_with("frames: [2, 3], kind: exchanged", {"--set", "status.check_pictures=false"});
   EXPECT_THAT(outcome.err, Not(HasSubstr("note:")));
   EXPECT_EQ(faults(), nlohmann::json::object());
   EXPECT_THAT(outcome.out, HasSubstr("0 missing"));

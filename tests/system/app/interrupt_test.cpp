@@ -226,7 +226,7 @@ class FailingPluginTest : public InterruptTest {
  protected:
   Outcome fail(const std::string& optimizer) const {
     return run(with_optimizer(optimizer),
-               {"--plugin-path", fixtures(), "--set", "tracker.recovery.enabled=false"});
+               {"--plugin-path", fixtures(), "--set", "recovery.enabled=false"});
   }
   static std::string with_optimizer(const std::string& optimizer) {
     return replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", optimizer);
@@ -243,7 +243,7 @@ TEST_P(LongFrameTest, CtrlCEndsTheFrameAndKeepsThoseBefore) {
   Start start = long_run();
   scene(with_optimizer(std::string("{type: failing, frames: 2, how: ") + GetParam() + "}"));
   start.arguments.insert(start.arguments.begin(), {"--plugin-path", fixtures()});
-  start.arguments.insert(start.arguments.end(), {"--set", "tracker.recovery.enabled=false"});
+  start.arguments.insert(start.arguments.end(), {"--set", "recovery.enabled=false"});
   Program program(start);
   wait_for_lines(program, "out/track.csv", 3);
   const auto begin = std::chrono::steady_clock::now();

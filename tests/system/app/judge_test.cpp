@@ -48,8 +48,8 @@ TEST_F(JudgeTest, TheFormerKeyForNoneWorksWithANote) {
   const Outcome former = run(box_scene() + "tracker: {evidence: false}\n");
   EXPECT_EQ(former.exit_code, 0);
   EXPECT_THAT(former.err, AllOf(HasSubstr("note: "), HasSubstr("scene.yaml:13:"),
-                                HasSubstr("`judge` has replaced tracker.evidence; "),
-                                HasSubstr("write `judge: none`")));
+                                HasSubstr("`tracker.evidence: false` is `judge: none` now; "),
+                                HasSubstr("`hypotrack migrate FILE...` rewrites files")));
   EXPECT_THAT(protocol(), AllOf(HasSubstr("\njudge: none\n"), Not(HasSubstr("evidence"))));
 }
 
@@ -57,9 +57,7 @@ TEST_F(JudgeTest, FormerKeysOfThresholdsGoToTheJudgeWithANote) {
   const Outcome former =
       run(box_scene(), {"--set", "tracker.tracked_above=0.7", "--set", "tracker.evidence=true"});
   EXPECT_EQ(former.exit_code, 0);
-  EXPECT_THAT(former.err,
-              HasSubstr("`judge` has replaced tracker.evidence, tracker.tracked_above; write "
-                        "`judge: {type: network, tracked_above: 0.7}`"));
+  EXPECT_THAT(former.err, HasSubstr("`tracker.tracked_above` is `judge.tracked_above`"));
   EXPECT_THAT(protocol(), HasSubstr("\n  tracked_above: 0.7\n"));
 }
 

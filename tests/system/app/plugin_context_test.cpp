@@ -117,7 +117,7 @@ TEST_F(PluginContextTest, FixedLagSmoothingGivesNoPreviousAnswer) {
 TEST_F(PluginContextTest, AnOptimizerKnowsThePreviousAnswer) {
   const Outcome outcome = run_with_plugins(
       replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", "{type: telling}"),
-      {"--set", "tracker.recovery.enabled=false"});
+      {"--set", "recovery.enabled=false"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("note: optimizer (telling), frame 1: starts at the previous answer"),

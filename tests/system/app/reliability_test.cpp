@@ -14,9 +14,7 @@ using testing::StartsWith;
 /// Runs of a box that say how far off they may be.
 class ReliabilityTest : public AppTest {
  protected:
-  static std::string scene_with_sigmas() {
-    return box_scene() + "tracker: {uncertainty: {enabled: true}}\n";
-  }
+  static std::string scene_with_sigmas() { return box_scene() + "uncertainty: {enabled: true}\n"; }
   std::string out() const { return path("out").string(); }
   std::string plot() const { return path("plot.svg").string(); }
   Outcome judge() const { return run_program({"reliability", out(), "--out", plot()}); }
@@ -80,14 +78,14 @@ TEST_F(ReliabilityTest, ARunWithoutSigmasIsRefused) {
   const Outcome outcome = judge();
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("has no uncertainty.csv"), HasSubstr("tracker.uncertainty.enabled")));
+              AllOf(HasSubstr("has no uncertainty.csv"), HasSubstr("uncertainty.enabled")));
   EXPECT_FALSE(std::filesystem::exists(plot()));
 }
 
 TEST_F(ReliabilityTest, AnObjectiveWithoutResidualsIsRefused) {
   expect_refused(replaced(scene_with_sigmas(), "{type: stereo_color}",
                           "{type: stereo_color, aggregation: mean_seen}"),
-                 {"objective stereo_color", "offers no residuals", "tracker.uncertainty off"});
+                 {"objective stereo_color", "offers no residuals", "uncertainty off"});
 }
 
 }  // namespace

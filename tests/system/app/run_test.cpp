@@ -122,7 +122,7 @@ TEST_F(RunTest, ErrorsAndMetricsAreThoseOfTheTables) {
 
 TEST_F(RunTest, EveryNumberPrintedIsThatOfItsFile) {
   // Some errors are below 5 mm, some between 5 and 10 mm, some above.
-  const Outcome outcome = run(box_scene(), {"--set", "tracker.recovery.enabled=false"});
+  const Outcome outcome = run(box_scene(), {"--set", "recovery.enabled=false"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto json_of = [&](const char* name) {
     return nlohmann::json::parse(read_text(path("out") / name));
@@ -314,10 +314,9 @@ TEST_F(RunTest, FixedLagSmoothingIsRefusedWhereItCannotWork) {
   expect_refused(
       replaced(box_scene(), "{type: stereo_color}", "{type: stereo_color, aggregation: mean_seen}"),
       {"fixed-lag smoothing needs residuals", "objective stereo_color", "offers no residuals"}, on);
-  expect_refused(
-      box_scene() + "tracker: {uncertainty: {enabled: true}}\n",
-      {"smoothing.fixed_lag.enabled and tracker.uncertainty.enabled", "switch one of them off"},
-      on);
+  expect_refused(box_scene() + "uncertainty: {enabled: true}\n",
+                 {"smoothing.fixed_lag.enabled and uncertainty.enabled", "switch one of them off"},
+                 on);
 }
 
 TEST_F(RunTest, TheOldKeyOfFixedLagSmoothingIsRefusedWithTheNewOne) {
@@ -336,7 +335,7 @@ TEST_F(RunTest, SetChangesKeysOfTheScene) {
   const Outcome outcome =
       run(box_scene(),
           {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}", "--set",
-           "budget.evaluations=20", "--set", "tracker.recovery.first_starts=1", "--frames", "1"});
+           "budget.evaluations=20", "--set", "recovery.first_starts=1", "--frames", "1"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(read_text(path("out/run.yaml")), HasSubstr("type: random_search"));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv")))[1], HasSubstr(",20,"));  // evaluations

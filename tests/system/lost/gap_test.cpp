@@ -61,7 +61,7 @@ TEST(Gap, IsTrackedAcrossAsMissingFramesOfThatTimeAre) { expect_alike({}); }
 
 TEST(Gap, IsPredictedAndSmoothedAcrossAsMissingFramesOfThatTimeAre) {
   expect_alike({"search.prediction={velocity: constant, longest_gap_ms: 1000}",
-                "output.smoothing.enabled=true", "tracker.uncertainty.enabled=true",
+                "output.smoothing.enabled=true", "uncertainty.enabled=true",
                 "budget.evaluations=120"});
 }
 

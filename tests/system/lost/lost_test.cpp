@@ -96,7 +96,7 @@ TEST(Lost, ComesBackAfterOneFrameWithoutTheHand) {
 
 TEST(Lost, ComesBackAfterThreeFramesWithoutTheHandAndSaysHowFarItMayBe) {
   const auto frames =
-      track(26, {absent(10, 12), "tracker.uncertainty.enabled=true", "budget.evaluations=120"});
+      track(26, {absent(10, 12), "uncertainty.enabled=true", "budget.evaluations=120"});
   expect_found_again(frames, 13);
   for (const Tracked& f : frames) {
     if (f.status == Status::lost || f.status == Status::absent) {
@@ -167,7 +167,7 @@ TEST(Lost, EqualSeedsComeBackAlike) {
 
 TEST(Lost, SearchesInTheBackgroundWithoutStoppingTheVideo) {
   const auto frames = track(
-      250, {absent(10, 12), "tracker.recovery.run=background", "source.frames=250",
+      250, {absent(10, 12), "recovery.run=background", "source.frames=250",
             "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
             " rotation_deg: [180, 0, 0]}}}, {frame: 9, gesture: spread, pose: {hand: {position_mm:"
             " [50, 85, 490], rotation_deg: [175, 0, 6]}}}]"});
@@ -181,7 +181,7 @@ TEST(Lost, SearchesInTheBackgroundWithoutStoppingTheVideo) {
 }
 
 TEST(Lost, GoesOnFromAnyAnswerAsThePaperDoesWhereItIsToldTo) {
-  const auto frames = track(14, {absent(10, 10), "tracker.recovery.enabled=false", "judge=none"});
+  const auto frames = track(14, {absent(10, 10), "recovery.enabled=false", "judge=none"});
   EXPECT_TRUE(
       std::ranges::none_of(frames, [](const Tracked& f) { return f.status == Status::absent; }));
 }

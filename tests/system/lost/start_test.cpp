@@ -73,7 +73,7 @@ TEST(LookedFor, PrintedBoxesAreFoundTheRightWayRound) {
 }
 
 TEST(LookedFor, ModelsNeedTwoViewsAndARecovery) {
-  EXPECT_THROW(track_unstarted(1, {"tracker.recovery.enabled=false"}), ConfigError);
+  EXPECT_THROW(track_unstarted(1, {"recovery.enabled=false"}), ConfigError);
   EXPECT_THROW(track_unstarted(1, {"judge=none"}), ConfigError);
 }
 
@@ -104,8 +104,8 @@ std::string all_thresholds(int value) {
 double last_error_of_a_believer(double check_s) {
   PluginLoader plugins;
   const std::vector<std::string> overrides{
-      "evaluate.backend=cpu", "tracker.recovery.first_starts=1", all_thresholds(0),
-      "tracker.recovery.check_s=" + std::to_string(check_s),
+      "evaluate.backend=cpu", "recovery.first_starts=1", all_thresholds(0),
+      "recovery.check_s=" + std::to_string(check_s),
       "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
   OpenedScene session =
       open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
@@ -202,8 +202,7 @@ TEST(LookedFor, WhatAStartWouldRecogniseAndDoesNotSeeIsSearchedEverMoreSeldom) {
 }
 
 TEST(LookedFor, WhatAStartSeesElsewhereOnlyIsFoundThere) {
-  const Doubted found =
-      track_doubted(14, {2, 100}, {"tracker.recovery.check_s=0.1", all_thresholds(0)});
+  const Doubted found = track_doubted(14, {2, 100}, {"recovery.check_s=0.1", all_thresholds(0)});
   EXPECT_LT(found.error, 0.02);
 }
 
@@ -268,7 +267,7 @@ TEST(LookedFor, AHandThatIsAnotherModelsIsNotTaken) {
       "optimizer=@" + real_time,
       "budget.evaluations=60",
       "tile.size=128",
-      "tracker.recovery.check_s=0",
+      "recovery.check_s=0",
       "judge={type: network, surely_above: 0.05, tracked_above: 0.05, confirmed_above: 0.05, "
       "uncertain_above: 0.02}",
       "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",

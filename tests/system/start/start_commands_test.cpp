@@ -46,9 +46,8 @@ TEST_F(StartCommands, DrawAStartThatIsRefusedBecauseItIsBehindTheCamera) {
 }
 
 TEST_F(StartCommands, DrawWhatIsFoundAlsoWhereSearchesAreInTheBackground) {
-  const std::string text =
-      replaced(box_scene(), "init: {from: truth}",
-               "init: {from: global_search}\ntracker: {recovery: {run: background}}");
+  const std::string text = replaced(box_scene(), "init: {from: truth}",
+                                    "init: {from: global_search}\nrecovery: {run: background}");
   EXPECT_THAT(draw(text).err, HasSubstr("start: global_search; box found"));
 }
 

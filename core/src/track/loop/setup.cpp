@@ -10,7 +10,7 @@ void check_looking(const TrackerParts& parts, bool recovers) {
   if (!parts.begins_by_looking) return;
   if (!recovers)
     throw ConfigError(
-        "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, a "
+        "init.from looks for the models in the pictures, which takes recovery.enabled, a "
         "judge and an objective that compares pictures; give a start, for example "
         "`init: {pose: ...}`");
   if (parts.cameras.size() < 2)
@@ -32,10 +32,10 @@ void reserve_evaluations(const FixedLagSettings& smoothing, std::int64_t of_sigm
     budget.evaluations -= smoothing.evaluations;
   }
   if (budget.evaluations < 2 * of_sigmas)
-    throw ConfigError(fmt::format(
-        "tracker.uncertainty takes {} evaluations of a frame's budget, which is {}; give "
-        "budget.evaluations {} or more, or leave tracker.uncertainty.enabled off",
-        of_sigmas, budget.evaluations, 2 * of_sigmas));
+    throw ConfigError(
+        fmt::format("uncertainty takes {} evaluations of a frame's budget, which is {}; give "
+                    "budget.evaluations {} or more, or leave uncertainty.enabled off",
+                    of_sigmas, budget.evaluations, 2 * of_sigmas));
   budget.evaluations -= of_sigmas;
 }
 
@@ -48,7 +48,7 @@ std::string problem_of_start(const Frame& frame, const Eigen::VectorXd& state,
   if (visible < min_visible)
     return fmt::format(
         "{:.0f} % of what the models cover at the start is inside every image, and a frame with "
-        "less than {:.0f} % counts as lost (tracker.min_visible); {}",
+        "less than {:.0f} % counts as lost (status.min_visible); {}",
         100 * visible, 100 * min_visible, kQuestion);
   switch (tiles.foreground_overlap(frame, state)) {
     case ForegroundOverlap::nowhere:

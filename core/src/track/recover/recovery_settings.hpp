@@ -17,7 +17,7 @@ enum class RecoveryRun {
 };
 std::span<const std::string_view> enum_names(RecoveryRun);
 
-/// `tracker.recovery:` of a scene.
+/// `recovery:` of a scene.
 struct RecoverySettings {
   bool enabled = true;
   RecoveryRun run = RecoveryRun::frame;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/exported.hpp"
+#include "config/yaml.hpp"
+
+// Keys that scenes of version 0.2 have in `tracker`, which names a file since 0.3.
+
+namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+inline constexpr std::string_view kTracker = "tracker", kFrom = "from", kJudge = "judge";
+inline constexpr std::string_view kEvidence = "evidence", kNetwork = "network", kNone = "none";
+
+struct FormerKey {
+  std::string_view key;    ///< in `tracker`
+  std::string_view place;  ///< the map that has it now; empty: the scene itself
+};
+
+/// Returns a former key of `tracker`, or null. `evidence`, which has become a judge, is none.
+const FormerKey* former_key(std::string_view key);
+
+/// Returns the path of a former key now: `status.patience`.
+std::string path_now(const FormerKey& key);
+
+/// Moves the values of former keys of a scene or tracker file to where they belong now. Returns a
+/// note for the user for each map that had some. Throws ConfigError if a key is there twice, or has
+/// no meaning in `tracker`.
+std::vector<std::string> move_former_keys(YamlNode& document);
+
+/// Rewrites the former keys in the text of a scene, tracker file or study; all else stays as it is,
+/// comments included. Throws ConfigError if the text is no YAML, or a key must be moved by hand.
+std::string migrate(const std::string& text, const std::string& name);
+
+}  // namespace internal
+}  // namespace hypotrack::detail

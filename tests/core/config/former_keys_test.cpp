@@ -1,0 +1,120 @@
+#include "config/former_keys.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene_folder.hpp"
+
+namespace hypotrack {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class FormerKeys : public test::SceneFolder {
+ protected:
+  std::vector<std::string> notes_of(const std::string& text,
+                                    const std::vector<std::string>& overrides = {}) const {
+    write("scene.yaml", text);
+    std::vector<std::string> notes;
+    (void)ConfigNode::load_scene(file("scene.yaml"), overrides, &notes);
+    return notes;
+  }
+};
+
+std::string migrated(const std::string& text) { return detail::migrate(text, "scene.yaml"); }
+
+TEST_F(FormerKeys, HaveTheirPlaceOfToday) {
+  const ConfigNode root = load(
+      "tracker: {recovery: {run: frame}, patience: 3, tracked_above: 0.7}\n"
+      "recovery: {tile: 32}\nstatus: {history: 9}\n");
+  EXPECT_EQ(root.get("recovery").to_yaml(), "tile: 32\nrun: frame\n");
+  EXPECT_EQ(root.get("status").to_yaml(), "history: 9\npatience: 3\n");
+  EXPECT_EQ(root.get("judge").to_yaml(), "type: network\ntracked_above: 0.7\n");
+  EXPECT_FALSE(root.get("tracker").defined());
+  EXPECT_THAT(notes_of("seed: 1\ntracker: {patience: 3}\n"),
+              testing::ElementsAre(file("scene.yaml").string() +
+                                   ":2:10: `tracker.patience` is `status.patience` now; "
+                                   "`hypotrack migrate FILE...` rewrites files"));
+  EXPECT_THAT(notes_of("status: {patience: 3}\n"), testing::IsEmpty());
+}
+
+TEST_F(FormerKeys, OfAnOverrideWinOverTheScene) {
+  const ConfigNode root = load("recovery: {tile: 32}\n", {"tracker.recovery.tile=16"});
+  EXPECT_EQ(root.get("recovery").get("tile").scalar(), "16");
+}
+
+TEST_F(FormerKeys, OfATrackerFileGiveWayToKeysOfTheScene) {
+  write("trackers/old.yaml", "tracker: {recovery: {tile: 32, run: frame}}\n");
+  const ConfigNode root = load("tracker: \"@trackers/old\"\nrecovery: {tile: 16}\n");
+  EXPECT_EQ(root.get("recovery").to_yaml(), "tile: 16\nrun: frame\n");
+  EXPECT_THAT(notes_of("tracker: {from: \"@trackers/old\"}\n").front(),
+              HasSubstr("old.yaml:1:10: `tracker.recovery` is `recovery` now"));
+}
+
+TEST_F(FormerKeys, ThatNeverWereAreRefusedWithTheirPlace) {
+  EXPECT_THAT(error("tracker:\n  patence: 3\n"),
+              AllOf(HasSubstr("scene.yaml:2:3: found the key 'patence' in `tracker`"),
+                    HasSubstr("\"@trackers/NAME\"")));
+}
+
+TEST(Migrate, RewritesMapsInBraces) {
+  EXPECT_EQ(
+      migrated("tracker: {from: \"@trackers/real\", recovery: {run: frame}, patience: 3}  # x\n"),
+      "tracker: \"@trackers/real\"\nrecovery: {run: frame}\nstatus: {patience: 3}  # x\n");
+  EXPECT_EQ(migrated("{seed: 1, tracker: {evidence: false, history: 9}}"),
+            "{seed: 1, judge: none, status: {history: 9}}");
+}
+
+TEST(Migrate, RewritesLinesWithTheirComments) {
+  EXPECT_EQ(migrated("# a\n"
+                     "tracker:  # b\n"
+                     "  patience: 3\n"
+                     "  # c\n"
+                     "  recovery:\n"
+                     "    run: frame  # d\n"
+                     "\n"
+                     "  tracked_above: 0.7\n"
+                     "# e\n"
+                     "seed: 1\n"),
+            "# a\n"
+            "# b\n"
+            "# c\n"
+            "recovery:\n"
+            "  run: frame  # d\n"
+            "judge:\n"
+            "  type: network\n"
+            "\n"
+            "  tracked_above: 0.7\n"
+            "status:\n"
+            "  patience: 3\n"
+            "# e\n"
+            "seed: 1\n");
+}
+
+TEST(Migrate, RewritesPathsOfStudies) {
+  EXPECT_EQ(migrated("scenes:\n"
+                     "  a: {file: a.yaml, set: {tracker.recovery.run: frame}}\n"
+                     "grid: {\"tracker.uncertainty.enabled\": [true]}\n"
+                     "plots: [{x: tracker.uncertainty.enabled}]\n"),
+            "scenes:\n"
+            "  a: {file: a.yaml, set: {recovery.run: frame}}\n"
+            "grid: {\"uncertainty.enabled\": [true]}\n"
+            "plots: [{x: uncertainty.enabled}]\n");
+}
+
+TEST(Migrate, LeavesOtherTextsAsTheyAre) {
+  for (const char* text :
+       {"tracker: \"@trackers/real\"\n", "grid: {tracker: {fast: {seed: 2}}}\n", "", "seed: 1"})
+    EXPECT_EQ(migrated(text), text);
+}
+
+TEST(Migrate, LeavesToPeopleWhatItCannotRewrite) {
+  for (const char* text : {"status: {history: 9}\ntracker: {patience: 3}\n",
+                           "tracker: {patience: 3,  # why\n  history: 9}\n"})
+    EXPECT_THAT(test::message_of<ConfigError>([&] { migrated(text); }),
+                AllOf(HasSubstr("scene.yaml:"), HasSubstr("rewrite `tracker` by hand")));
+}
+
+}  // namespace
+}  // namespace hypotrack
