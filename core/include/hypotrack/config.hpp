@@ -46,6 +46,11 @@ class HYPOTRACK_API ConfigNode {
                                std::span<const std::string> overrides = {},
                                std::vector<std::string>* notes = nullptr);
 
+  /// Returns this document as load_scene() returns a file: with its tracker, its references and the
+  /// overrides. Throws ConfigError.
+  ConfigNode as_scene(std::span<const std::string> overrides = {},
+                      std::vector<std::string>* notes = nullptr) const;
+
   /// Reads a study file as load() does, joined with the study that it `extends`. Throws
   /// ConfigError.
   static ConfigNode load_study(const std::filesystem::path& file);
@@ -84,8 +89,9 @@ class HYPOTRACK_API ConfigNode {
   /// Returns true for a scalar without quotes, which may be read as a number, bool or null.
   bool is_plain() const;
 
-  /// Returns where the node was written: `scene.yaml:12:5` (line and column from 1), or the
-  /// override it comes from: `--set models.0.type=hand`.
+  /// Returns where the node was written: `scene.yaml:12:5` (line and column from 1), the override
+  /// it comes from, `--set models.0.type=hand`, or its place in a document that a program made: `my
+  /// scene: models.0.type`.
   std::string where() const;
   /// Returns where a key of this map was written, or where() if there is no such key.
   std::string where_key(std::string_view key) const;
@@ -100,6 +106,7 @@ class HYPOTRACK_API ConfigNode {
   std::string to_yaml() const;
 
  private:
+  friend class ConfigValue;
   explicit ConfigNode(std::shared_ptr<const detail::YamlNode> node);
   ConfigNode missing(std::string_view step) const;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+
+class PluginContext;
 
 /// A bone of a mesh file with its transform at the bind pose.
 struct ImportedBone {
@@ -37,6 +40,20 @@ struct MeshImportOptions {
 /// over 256 MiB, unreadable or damaged files, meshes without faces, NaN vertices or weights,
 /// indices out of range, and skinned meshes with a vertex that no bone moves.
 HYPOTRACK_API ImportedMesh import_mesh(const std::filesystem::path& file,
+                                       const MeshImportOptions& options = {});
+
+/// A mesh that a program holds, as import_mesh() reads it from a file.
+struct MeshArrays {
+  Eigen::Matrix3Xf vertices;   ///< 3xV, in any unit
+  Eigen::Matrix3Xi triangles;  ///< 3xT vertex indices, counter-clockwise from outside
+  /// 3xV, RGB of the vertices; 3x0: one colour for all.
+  Eigen::Matrix<std::uint8_t, 3, Eigen::Dynamic> colors{3, 0};
+};
+
+/// Imports the mesh that a plugin's parameter names: a file, or `attached:NAME`, which the program
+/// holds (SessionOptions::meshes). Throws ConfigError if it holds none of that name, else as above.
+HYPOTRACK_API ImportedMesh import_mesh(const PluginContext& context,
+                                       const std::filesystem::path& file,
                                        const MeshImportOptions& options = {});
 
 }  // namespace hypotrack

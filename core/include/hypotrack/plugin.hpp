@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@
 #include "hypotrack/output.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/plugin_log.hpp"
+#include "hypotrack/program_plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
 #include "hypotrack/start.hpp"
@@ -39,6 +41,7 @@
 namespace hypotrack {
 
 class PluginContext;
+struct MeshArrays;
 
 /// Name of a plugin kind in YAML keys, file names and messages.
 template <class T>
@@ -66,6 +69,14 @@ class HYPOTRACK_API PluginLoader {
 
   const std::vector<std::filesystem::path>& search_path() const;
 
+  /// Adds a plugin of this program, which replaces a library of its kind and name. Throws
+  /// PluginError if there is no such kind, or on a name that no scene could give.
+  void add(ProgramPlugin plugin);
+  /// Lets scenes name a mesh of this program as `attached:NAME`.
+  void attach(const std::string& name, MeshArrays mesh);
+  /// Returns what scenes have taken from this program: `the mesh attached:cube`.
+  std::vector<std::string> taken_from_program() const;
+
   /// Makes the object that `config` (a map with a `type`) describes. The caller reads the keys
   /// `also_allowed` itself. `resolved`, if given, receives all parameters with their values as
   /// YAML, `type` first. `notes`, if given, receives what the object tells the user. Throws
@@ -80,6 +91,8 @@ class HYPOTRACK_API PluginLoader {
   }
 
  private:
+  friend class PluginContext;
+  const MeshArrays& attached_mesh(const std::string& name, const ConfigNode& config);
   void* make_object(std::string_view kind, const ConfigNode& config, const Scene* scene,
                     std::vector<std::string> also_allowed, std::string* resolved,
                     std::shared_ptr<PluginNotes> notes);
@@ -95,10 +108,11 @@ class HYPOTRACK_API PluginContext {
                 std::vector<std::string> also_allowed, std::shared_ptr<PluginNotes> notes = nullptr,
                 std::string who = {});
 
-  /// Reads the parameters strictly and records their values for the run's protocol.
+  /// Reads the parameters strictly and records their values for the run's protocol. Absent keys
+  /// keep the values of `params`.
   template <ParamStruct P>
-  P read() {
-    P params = ParamReader(config_, also_allowed_).template read<P>();
+  P read(P params = P{}) {
+    params = ParamReader(config_, also_allowed_).template read<P>(std::move(params));
     resolved_ = dump_params(params);
     return params;
   }
@@ -113,6 +127,11 @@ class HYPOTRACK_API PluginContext {
     auto object = plugins_->make<T>(config, scene_, {}, &resolved, notes_);
     record_nested(config, resolved);
     return object;
+  }
+  /// Returns the mesh that the program attached under a name. It lives as long as the loader.
+  /// Throws ConfigError if there is none.
+  const MeshArrays& attached_mesh(const std::string& name) const {
+    return plugins_->attached_mesh(name, config_);
   }
   /// Returns the log that tells the user something under the plugin's name. Keep a copy.
   PluginLog log() const { return {notes_, who_}; }
@@ -131,6 +150,17 @@ class HYPOTRACK_API PluginContext {
   std::shared_ptr<PluginNotes> notes_;
   std::string who_;
 };
+
+/// Makes a plugin of a program, for SessionOptions::plugins. `make` may read parameters from the
+/// context.
+template <PluginInterface T>
+ProgramPlugin program_plugin(std::string name,
+                             std::function<std::unique_ptr<T>(PluginContext&)> make) {
+  return {std::string(kPluginKind<T>), std::move(name),
+          [make = std::move(make)](PluginContext& context) -> void* {
+            return make(context).release();
+          }};
+}
 
 inline constexpr std::uint32_t kAbiVersion = 23;
 

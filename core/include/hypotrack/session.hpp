@@ -1,14 +1,19 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
+#include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
+#include "hypotrack/frame_cost.hpp"
+#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/program_plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/solution.hpp"
 #include "hypotrack/stop.hpp"
@@ -16,16 +21,18 @@
 
 namespace hypotrack {
 
-/// Changes to a scene, and where its plugins are.
+/// Changes to a scene, where its plugins are, and what the program adds.
 struct SessionOptions {
-  std::vector<std::string> set;                    ///< overrides: `key.path=value`
-  std::vector<std::filesystem::path> plugin_path;  ///< folders to search before the usual ones
+  std::vector<std::string> set = {};                    ///< overrides: `key.path=value`
+  std::vector<std::filesystem::path> plugin_path = {};  ///< folders to search before the usual ones
+  std::vector<ProgramPlugin> plugins = {};              ///< before all libraries
+  std::map<std::string, MeshArrays> meshes = {};        ///< by NAME: `mesh: attached:NAME`
 };
 
 /// Extent and results of a run.
 struct RunOptions {
-  std::filesystem::path out;  ///< folder for tables, video and summary; empty: none are written
-  std::optional<int> frames;  ///< stop after this many
+  std::filesystem::path out = {};  ///< folder for tables, video, summary; empty: none are written
+  std::optional<int> frames = {};  ///< stop after this many
   /// Ends the run in the middle of a frame, within about 0.2 s. That frame is not written, those
   /// before are.
   StopTest stop_now = {};
@@ -50,7 +57,7 @@ class HYPOTRACK_API RunWatcher {
   virtual void end() {}
 };
 
-/// A scene file, opened: models, objective and optimizer are made and checked.
+/// A scene, opened: models, objective and optimizer are made and checked.
 ///
 ///   hypotrack::Session session("scene.yaml");
 ///   hypotrack::Tracker tracker = session.tracker(cameras);  // load_calibration() reads them
@@ -60,6 +67,9 @@ class HYPOTRACK_API Session {
   /// Opens a scene. Its source is opened by run() only, and may be left out of the file by programs
   /// that have frames of their own. Throws ConfigError, PluginError, DataError or DeviceError.
   explicit Session(const std::filesystem::path& scene, SessionOptions options = {});
+  /// Opens a scene that a program made: ConfigValue::document(), or ConfigNode::parse() of YAML.
+  /// All else is as with a file. Messages have the document's name and the key path.
+  explicit Session(ConfigNode scene, SessionOptions options = {});
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
   ~Session();
@@ -71,6 +81,10 @@ class HYPOTRACK_API Session {
   /// invalid cameras. Throws ConfigError if the scene cannot be tracked with them, or has
   /// `shape.estimate_s`, which needs a source.
   Tracker tracker(std::vector<Camera> cameras);
+
+  /// Makes the cost of states in frames from these cameras, which need sizes. It is independent of
+  /// the session. Throws DataError on invalid cameras, ConfigError or DeviceError.
+  FrameCost frame_cost(std::vector<Camera> cameras);
 
   /// Tracks the frames of the scene's own source. Returns false if the watcher or
   /// RunOptions::stop_now ended the run.

@@ -18,16 +18,18 @@ using detail::YamlOrigin;
 
 namespace {
 
-std::string step_of(const YamlNode& node) {
-  const auto& siblings = node.parent->entries;
-  const auto self = std::find_if(siblings.begin(), siblings.end(),
-                                 [&](const auto& entry) { return entry.value.get() == &node; });
-  if (node.parent->kind == YamlNode::Kind::kMap) return self->key;
-  return std::to_string(self - siblings.begin());
-}
-
-std::string join_path(const std::string& head, const std::string& tail) {
-  return head.empty() || tail.empty() ? head + tail : head + "." + tail;
+/// Gives a document its tracker, references and overrides, and former keys their place of today.
+std::shared_ptr<const YamlNode> resolved(std::unique_ptr<YamlNode> root, detail::Includes& includes,
+                                         std::span<const std::string> overrides,
+                                         std::vector<std::string>* notes) {
+  includes.move_former(*root);
+  const std::vector<std::string> left = detail::take_tracker(*root, overrides, includes);
+  std::vector<std::string> path;
+  includes.resolve(root, path);
+  for (const std::string& assignment : left) detail::apply_override(*root, assignment);
+  includes.move_former(*root);
+  if (notes) *notes = includes.notes();
+  return root;
 }
 
 }  // namespace
@@ -42,16 +44,15 @@ ConfigNode ConfigNode::load(const std::filesystem::path& file) {
 ConfigNode ConfigNode::load_scene(const std::filesystem::path& file,
                                   std::span<const std::string> overrides,
                                   std::vector<std::string>* notes) {
-  auto root = detail::read_yaml_file(file);
   detail::Includes includes(file);
-  includes.move_former(*root);
-  const std::vector<std::string> left = detail::take_tracker(*root, overrides, includes);
-  std::vector<std::string> path;
-  includes.resolve(root, path);
-  for (const std::string& assignment : left) detail::apply_override(*root, assignment);
-  includes.move_former(*root);
-  if (notes) *notes = includes.notes();
-  return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
+  return ConfigNode(resolved(detail::read_yaml_file(file), includes, overrides, notes));
+}
+
+ConfigNode ConfigNode::as_scene(std::span<const std::string> overrides,
+                                std::vector<std::string>* notes) const {
+  if (!defined()) throw ConfigError("a scene is a map; found a document without a value");
+  detail::Includes includes;
+  return ConfigNode(resolved(detail::clone(*node_), includes, overrides, notes));
 }
 
 ConfigNode ConfigNode::load_study(const std::filesystem::path& file) {
@@ -106,7 +107,7 @@ std::vector<std::string> ConfigNode::keys() const {
 
 ConfigNode ConfigNode::missing(std::string_view step) const {
   ConfigNode absent = *this;
-  absent.missing_ = missing_ ? join_path(*missing_, std::string(step)) : std::string(step);
+  absent.missing_ = missing_ ? detail::join_path(*missing_, std::string(step)) : std::string(step);
   return absent;
 }
 
@@ -128,21 +129,21 @@ const std::string& ConfigNode::scalar() const {
 
 std::string ConfigNode::where() const {
   if (!node_) return "(nowhere)";
-  return detail::describe_position(*node_->origin, node_->line, node_->column);
+  if (missing_ && node_->origin->is_program)
+    return fmt::format("{}: {}", node_->origin->name, path());
+  return detail::place_of(*node_);
 }
 
 std::string ConfigNode::where_key(std::string_view key) const {
   const auto* entry = is_map() ? node_->find(key) : nullptr;
   if (!entry) return where();
+  if (entry->value->origin->is_program) return detail::place_of(*entry->value);
   return detail::describe_position(*entry->value->origin, entry->line, entry->column);
 }
 
 std::string ConfigNode::path() const {
-  std::string path = missing_.value_or("");
-  if (!node_) return path;
-  const YamlNode* node = node_.get();
-  for (; node->parent; node = node->parent) path = join_path(step_of(*node), path);
-  return join_path(node->origin->path, path);
+  const std::string missing = missing_.value_or("");
+  return node_ ? detail::join_path(detail::path_of(*node_), missing) : missing;
 }
 
 ConfigNode ConfigNode::placed_at(std::string path) const {

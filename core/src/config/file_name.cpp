@@ -43,8 +43,7 @@ std::optional<FileName> file_name_in(const YamlNode& value) {
   if (value.kind != YamlNode::Kind::kScalar || !value.text.starts_with('@') ||
       value.text.starts_with("@@") || value.text.find('#') != std::string::npos)
     return std::nullopt;
-  return FileName{value.text.substr(1), value.origin->directory,
-                  describe_position(*value.origin, value.line, value.column)};
+  return FileName{value.text.substr(1), value.origin->directory, place_of(value)};
 }
 
 fs::path find_file(const FileName& name, std::string_view kind) {

@@ -95,9 +95,8 @@ void Includes::resolve(std::unique_ptr<YamlNode>& value, std::vector<std::string
     value = included(value->origin->directory / include->file,
                      include->path ? split_path(*include->path) : path, path.size());
   } catch (const ConfigError& error) {
-    throw ConfigError(fmt::format("{}: '{}' cannot be included: {}",
-                                  describe_position(*value->origin, value->line, value->column),
-                                  value->text, error.what()));
+    throw ConfigError(fmt::format("{}: '{}' cannot be included: {}", place_of(*value), value->text,
+                                  error.what()));
   }
 }
 

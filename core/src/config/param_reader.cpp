@@ -106,7 +106,8 @@ struct ParamReader::Impl : public ParamVisitor {
     if (!node) return;
     const std::filesystem::path path = read_text(*node, "a path");
     if (path.empty() && info.required) fail_type(*node, "a path");
-    value = path.empty() ? path : (node->directory() / path).lexically_normal();
+    const bool is_file = !path.empty() && !path.native().starts_with(detail::kAttached);
+    value = is_file ? (node->directory() / path).lexically_normal() : path;
   }
 
   void on_enum(std::string_view key, int& value, std::span<const std::string_view> names,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/numbers.hpp"
+#include "config/read_value.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/params.hpp"
 
@@ -43,7 +44,8 @@ class DumpVisitor : public ParamVisitor {
     add(key, make_scalar(value, false));
   }
   void on_path(std::string_view key, std::filesystem::path& value, const ParamInfo&) override {
-    const auto path = value.empty() ? value : std::filesystem::absolute(value).lexically_normal();
+    const bool is_file = !value.empty() && !value.native().starts_with(detail::kAttached);
+    const auto path = is_file ? std::filesystem::absolute(value).lexically_normal() : value;
     add(key, make_scalar(path.string(), false));
   }
   void on_enum(std::string_view key, int& value, std::span<const std::string_view> names,

@@ -13,12 +13,16 @@
 
 namespace hypotrack::detail::internal {
 
+std::string with_path(const std::string& where, const std::string& path) {
+  // A document that a program made has the path in its positions.
+  return path.empty() || where.ends_with(": " + path) ? where : fmt::format("{}: {}", where, path);
+}
+
 void fail_at(const ConfigNode& node, std::string_view problem) {
   std::string path = node.path();
   std::ranges::replace_if(
       path, [](unsigned char c) { return c < 32 || c == 127; }, '?');
-  throw ConfigError(path.empty() ? fmt::format("{}: {}", node.where(), problem)
-                                 : fmt::format("{}: {}: {}", node.where(), path, problem));
+  throw ConfigError(fmt::format("{}: {}", with_path(node.where(), path), problem));
 }
 
 std::string describe_value(const ConfigNode& node) {
@@ -68,8 +72,8 @@ void fail_unknown(const ConfigNode& map, const std::string& key,
                   const std::vector<std::string>& allowed) {
   const std::string hint = did_you_mean(key, allowed);
   throw ConfigError(
-      fmt::format("{}: {}: unknown key{} Allowed: {}", map.where_key(key), map.get(key).path(),
-                  hint.empty() ? "." : hint,
+      fmt::format("{}: unknown key{} Allowed: {}",
+                  with_path(map.where_key(key), map.get(key).path()), hint.empty() ? "." : hint,
                   allowed.empty() ? "nothing" : fmt::format("{}", fmt::join(allowed, ", "))));
 }
 

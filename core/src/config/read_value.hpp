@@ -10,6 +10,12 @@
 namespace hypotrack::detail {
 inline namespace HYPOTRACK_EXPORTED internal {
 
+/// Begins the names of what a program holds in place of a file: `attached:cube`.
+inline constexpr std::string_view kAttached = "attached:";
+
+/// Returns a position with a key path: `scene.yaml:3:5: optimizer.particles`.
+std::string with_path(const std::string& where, const std::string& path);
+
 /// Throws ConfigError with the text `scene.yaml:3:5: optimizer.particles: problem`.
 [[noreturn]] void fail_at(const ConfigNode& node, std::string_view problem);
 

@@ -14,6 +14,14 @@
 namespace hypotrack::detail::internal {
 namespace {
 
+std::string step_of(const YamlNode& node) {
+  const auto& siblings = node.parent->entries;
+  const auto self = std::find_if(siblings.begin(), siblings.end(),
+                                 [&](const auto& entry) { return entry.value.get() == &node; });
+  if (node.parent->kind == YamlNode::Kind::kMap) return self->key;
+  return std::to_string(self - siblings.begin());
+}
+
 bool is_word_character(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) ||
          std::string_view("_./+-").find(c) != std::string_view::npos;
@@ -90,6 +98,23 @@ void emit(YAML::Emitter& out, const YamlNode& node) {
 std::string describe_position(const YamlOrigin& origin, int line, int column) {
   if (origin.is_override) return origin.name;
   return fmt::format("{}:{}:{}", origin.name, line, column);
+}
+
+std::string join_path(const std::string& head, const std::string& tail) {
+  return head.empty() || tail.empty() ? head + tail : head + "." + tail;
+}
+
+std::string path_of(const YamlNode& node) {
+  std::string path;
+  const YamlNode* at = &node;
+  for (; at->parent; at = at->parent) path = join_path(step_of(*at), path);
+  return join_path(at->origin->path, path);
+}
+
+std::string place_of(const YamlNode& node) {
+  if (!node.origin->is_program) return describe_position(*node.origin, node.line, node.column);
+  const std::string path = path_of(node);
+  return path.empty() ? node.origin->name : fmt::format("{}: {}", node.origin->name, path);
 }
 
 std::unique_ptr<YamlNode> make_scalar(std::string text, bool plain) {

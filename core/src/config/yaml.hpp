@@ -20,6 +20,7 @@ struct YamlOrigin {
   std::string name;
   std::filesystem::path directory;  ///< absolute; relative paths refer to it
   bool is_override = false;         ///< has no line numbers; the name is the whole position
+  bool is_program = false;          ///< has no line numbers; a program made the document
   std::string path = {};            ///< of the root, if it is a part of another document
 };
 
@@ -65,6 +66,16 @@ inline constexpr std::size_t kMaxYamlDepth = 64;
 
 /// Returns `scene.yaml:12:5`, or only the name for an override.
 std::string describe_position(const YamlOrigin& origin, int line, int column);
+
+/// Joins two key paths, either of which may be empty.
+std::string join_path(const std::string& head, const std::string& tail);
+
+/// Returns the keys that lead to a node from its root, `models.0.type`, behind those of its origin.
+std::string path_of(const YamlNode& node);
+
+/// Returns where a node was written: describe_position(), or `NAME: key.path` in a document that a
+/// program made.
+std::string place_of(const YamlNode& node);
 
 /// Makes a scalar. Unless `plain`, text that looks like a number, bool or null stays text.
 std::unique_ptr<YamlNode> make_scalar(std::string text, bool plain);

@@ -70,9 +70,8 @@ std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limi
 }
 
 /// Opens a scene; estimates the shape from the first seconds if the scene asks for it.
-EstimatedScene open_for_run(const std::filesystem::path& scene,
-                            std::span<const std::string> overrides, PluginLoader& plugins,
-                            Latch& latch) {
+EstimatedScene open_for_run(const SceneInput& scene, std::span<const std::string> overrides,
+                            PluginLoader& plugins, Latch& latch) {
   RunWatcher& watcher = latch.watcher();
   const ShapeEstimateSettings shapes = load_scene(scene, overrides).file.shape;
   if (shapes.seconds == 0) {
@@ -190,10 +189,10 @@ void spare_scene(const std::filesystem::path& scene, const std::filesystem::path
 
 }  // namespace
 
-RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
+RunResult run_scene(const SceneInput& scene, std::span<const std::string> overrides,
                     PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher,
                     RunAdditions additions) {
-  spare_scene(scene, options.out);
+  spare_scene(scene.file(), options.out);
   Latch latch(watcher);
   EstimatedScene estimated;
   if (!completes(options.stop_now,

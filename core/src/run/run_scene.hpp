@@ -35,7 +35,7 @@ struct RunAdditions {
 /// Opens a scene, tracks the frames of its source and writes the results. Estimates the shape from
 /// the first seconds before that, if the scene asks for it. After an error the results of the
 /// frames so far are kept, and the error is thrown.
-RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
+RunResult run_scene(const SceneInput& scene, std::span<const std::string> overrides,
                     PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher,
                     RunAdditions additions = {});
 

@@ -5,6 +5,7 @@
 
 #include "cost/cuda/device.hpp"
 #include "hypotrack/plugin.hpp"
+#include "run/frame_cost_impl.hpp"
 #include "run/run_scene.hpp"
 #include "run/tracker_impl.hpp"
 #include "session/opened_scene.hpp"
@@ -17,18 +18,19 @@ void RunWatcher::begin(std::optional<int> /*frames*/) {}
 void RunWatcher::frame(const Frame& /*frame*/, const Solution& /*solution*/, double /*error*/) {}
 
 struct Session::Impl {
-  Impl(std::filesystem::path scene_file, SessionOptions session_options)
-      : file(std::move(scene_file)),
-        options(std::move(session_options)),
-        plugins(options.plugin_path),
-        models(open()) {}
+  Impl(SceneInput input, SessionOptions session_options)
+      : scene(std::move(input)), options(std::move(session_options)), plugins(options.plugin_path) {
+    for (ProgramPlugin& plugin : options.plugins) plugins.add(std::move(plugin));
+    for (auto& [name, mesh] : options.meshes) plugins.attach(name, std::move(mesh));
+    models = open();
+  }
 
   OpenedScene open() {
     const cuda::KeepDevice keep;
-    return open_without_source(file, options.set, plugins);
+    return open_without_source(scene, options.set, plugins);
   }
 
-  std::filesystem::path file;
+  SceneInput scene;
   SessionOptions options;
   PluginLoader plugins;
   OpenedScene models;  ///< what was opened to check the file
@@ -36,6 +38,8 @@ struct Session::Impl {
 
 Session::Session(const std::filesystem::path& scene, SessionOptions options)
     : impl_(std::make_unique<Impl>(scene, std::move(options))) {}
+Session::Session(ConfigNode scene, SessionOptions options)
+    : impl_(std::make_unique<Impl>(std::move(scene), std::move(options))) {}
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;
@@ -48,9 +52,14 @@ Tracker Session::tracker(std::vector<Camera> cameras) {
   return Tracker(std::make_unique<Tracker::Impl>(impl_->open(), std::move(cameras)));
 }
 
+FrameCost Session::frame_cost(std::vector<Camera> cameras) {
+  const cuda::KeepDevice keep;
+  return FrameCost(std::make_unique<FrameCost::Impl>(impl_->open(), std::move(cameras)));
+}
+
 bool Session::run(const RunOptions& options, RunWatcher& watcher) {
   const cuda::KeepDevice keep;
-  return run_scene(impl_->file, impl_->options.set, impl_->plugins, options, watcher).complete;
+  return run_scene(impl_->scene, impl_->options.set, impl_->plugins, options, watcher).complete;
 }
 
 }  // namespace hypotrack

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -310,6 +311,14 @@ void Opening::outputs() {
   record_.set("output", output);
 }
 
+/// Returns the comment of a protocol on what only the program that made the scene has.
+std::string not_repeated(const std::vector<std::string>& taken) {
+  if (taken.empty()) return {};
+  return fmt::format(
+      "# This file repeats the run only in a program that holds {}, as the one did that ran it.\n",
+      fmt::join(taken, ", "));
+}
+
 OpenedScene Opening::finish() {
   session_.parts.tile = file_.tile;
   session_.parts.evaluate = file_.evaluate;
@@ -332,15 +341,15 @@ OpenedScene Opening::finish() {
   session_.output = file_.output;
   session_.shape = file_.shape;
   session_.seed = static_cast<std::uint64_t>(file_.seed);
-  session_.resolved = record_.text();
+  session_.resolved = not_repeated(plugins_->taken_from_program()) + record_.text();
   return std::move(session_);
 }
 
 }  // namespace
 
-OpenedScene open_scene(const std::filesystem::path& scene_file,
-                       std::span<const std::string> overrides, PluginLoader& plugins) {
-  Opening opening(load_scene(scene_file, overrides), plugins);
+OpenedScene open_scene(const SceneInput& scene, std::span<const std::string> overrides,
+                       PluginLoader& plugins) {
+  Opening opening(load_scene(scene, overrides), plugins);
   opening.tracker();
   opening.images();
   opening.source();
@@ -348,10 +357,10 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
   return opening.finish();
 }
 
-OpenedScene open_scene(const std::filesystem::path& scene_file,
-                       std::span<const std::string> overrides, PluginLoader& plugins,
-                       std::unique_ptr<Source> source, const std::string& source_resolved) {
-  Opening opening(load_scene(scene_file, overrides), plugins);
+OpenedScene open_scene(const SceneInput& scene, std::span<const std::string> overrides,
+                       PluginLoader& plugins, std::unique_ptr<Source> source,
+                       const std::string& source_resolved) {
+  Opening opening(load_scene(scene, overrides), plugins);
   opening.tracker();
   opening.images();
   opening.source(std::move(source), source_resolved);
@@ -359,16 +368,16 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
   return opening.finish();
 }
 
-OpenedScene open_without_source(const std::filesystem::path& scene_file,
-                                std::span<const std::string> overrides, PluginLoader& plugins) {
-  Opening opening(load_scene(scene_file, overrides), plugins);
+OpenedScene open_without_source(const SceneInput& scene, std::span<const std::string> overrides,
+                                PluginLoader& plugins) {
+  Opening opening(load_scene(scene, overrides), plugins);
   opening.tracker();
   return opening.finish();
 }
 
-OpenedScene open_source(const std::filesystem::path& scene_file,
-                        std::span<const std::string> overrides, PluginLoader& plugins) {
-  Opening opening(load_scene(scene_file, overrides), plugins);
+OpenedScene open_source(const SceneInput& scene, std::span<const std::string> overrides,
+                        PluginLoader& plugins) {
+  Opening opening(load_scene(scene, overrides), plugins);
   opening.models();
   opening.source();
   return opening.finish();

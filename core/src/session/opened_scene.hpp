@@ -49,24 +49,24 @@ struct OpenedScene {
 
 /// Opens a scene: models first, then the objective, the optimizer, the judge, the start and the
 /// source. Throws the error of the part that fails.
-OpenedScene open_scene(const std::filesystem::path& scene_file,
-                       std::span<const std::string> overrides, PluginLoader& plugins);
+OpenedScene open_scene(const SceneInput& scene, std::span<const std::string> overrides,
+                       PluginLoader& plugins);
 
 /// Opens a scene whose frames come from elsewhere: everything but the source, which the file may
 /// leave out. The caller sets `parts.cameras`.
-OpenedScene open_without_source(const std::filesystem::path& scene_file,
-                                std::span<const std::string> overrides, PluginLoader& plugins);
+OpenedScene open_without_source(const SceneInput& scene, std::span<const std::string> overrides,
+                                PluginLoader& plugins);
 
 /// Opens only the models and the source of a scene, for programs that look at a source (`hypotrack
 /// synth`).
-OpenedScene open_source(const std::filesystem::path& scene_file,
-                        std::span<const std::string> overrides, PluginLoader& plugins);
+OpenedScene open_source(const SceneInput& scene, std::span<const std::string> overrides,
+                        PluginLoader& plugins);
 
 /// Opens a scene with a source that another session of the same scene has opened. `source` and
 /// `source_resolved` are that session's. It must outlive this one if it made the source.
-OpenedScene open_scene(const std::filesystem::path& scene_file,
-                       std::span<const std::string> overrides, PluginLoader& plugins,
-                       std::unique_ptr<Source> source, const std::string& source_resolved);
+OpenedScene open_scene(const SceneInput& scene, std::span<const std::string> overrides,
+                       PluginLoader& plugins, std::unique_ptr<Source> source,
+                       const std::string& source_resolved);
 
 /// Makes the fixed-lag smoother of a session that still has its parts. Returns null if the scene
 /// does not ask for it. Throws ConfigError.

@@ -54,16 +54,16 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
   return all;
 }
 
-LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+LoadedScene load_scene(const SceneInput& input, std::span<const std::string> overrides) {
   LoadedScene scene;
-  scene.root = ConfigNode::load_scene(path, overrides, &scene.notes);
+  scene.root = input.read(overrides, &scene.notes);
   if (!scene.root.is_map())
     throw ConfigError(fmt::format(
         "{}: a scene is a map with models, source, objective and optimizer", scene.root.where()));
   if (scene.root.get("scenes").defined() && !scene.root.get("models").defined())
     throw ConfigError(fmt::format(
         "{}: this is a study, no scene: it has `scenes`; `hypotrack compare` makes its runs",
-        path.string()));
+        scene.root.where()));
   refuse_old_keys(scene.root);
   scene.file = ParamReader(scene.root).read<SceneFile>();
   if (scene.file.tracker.defined())

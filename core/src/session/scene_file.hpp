@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -188,8 +190,28 @@ struct LoadedScene {
   std::vector<std::string> notes = {};  ///< for the user: keys that have another name now
 };
 
-/// Reads a scene file and applies the overrides. Throws ConfigError, also on unknown keys.
-LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides);
+/// A scene before it is opened: a file, which is read every time, or a document of a program.
+class SceneInput {
+ public:
+  SceneInput(std::filesystem::path file) : file_(std::move(file)) {}
+  SceneInput(ConfigNode document) : document_(std::move(document)) {}
+
+  /// Returns the scene with its references and the overrides; `notes` gets lines on former keys.
+  /// Throws ConfigError.
+  ConfigNode read(std::span<const std::string> overrides, std::vector<std::string>* notes) const {
+    return document_ ? document_->as_scene(overrides, notes)
+                     : ConfigNode::load_scene(file_, overrides, notes);
+  }
+  /// Returns the file; empty for a document.
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  std::filesystem::path file_;
+  std::optional<ConfigNode> document_;
+};
+
+/// Reads a scene and applies the overrides. Throws ConfigError, also on unknown keys.
+LoadedScene load_scene(const SceneInput& input, std::span<const std::string> overrides);
 
 }  // namespace internal
 }  // namespace hypotrack

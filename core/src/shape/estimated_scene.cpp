@@ -43,20 +43,19 @@ std::vector<std::string> show_models_as_given(const SceneFile& scene) {
 
 }  // namespace
 
-EstimatedScene open_estimated(const std::filesystem::path& scene_file,
-                              std::span<const std::string> overrides, PluginLoader& plugins,
-                              const ShapeProgress& progress) {
+EstimatedScene open_estimated(const SceneInput& scene, std::span<const std::string> overrides,
+                              PluginLoader& plugins, const ShapeProgress& progress) {
   EstimatedScene opened;
   std::vector<std::string> as_given(overrides.begin(), overrides.end());
-  for (std::string& more : show_models_as_given(load_scene(scene_file, overrides).file))
+  for (std::string& more : show_models_as_given(load_scene(scene, overrides).file))
     as_given.push_back(std::move(more));
-  opened.first = open_source(scene_file, as_given, plugins);
+  opened.first = open_source(scene, as_given, plugins);
   OpenedScene& first = opened.first;
   std::vector<Frame> frames = first_seconds(*first.source, first.shape.seconds);
   const auto open = [&](const std::vector<std::string>& found, std::unique_ptr<Source> source) {
     std::vector<std::string> all(overrides.begin(), overrides.end());
     all.insert(all.end(), found.begin(), found.end());
-    return open_scene(scene_file, all, plugins, std::move(source), first.source_resolved);
+    return open_scene(scene, all, plugins, std::move(source), first.source_resolved);
   };
   if (first.shape.from == ShapeFrom::starts)
     opened.estimate = size_by_starts(

@@ -22,9 +22,8 @@ struct EstimatedScene {
 
 /// Estimates the shape from the first `settings.seconds` of a scene's source and reopens the scene
 /// with it. Holds those frames in memory. Throws what estimate_shape() throws.
-EstimatedScene open_estimated(const std::filesystem::path& scene_file,
-                              std::span<const std::string> overrides, PluginLoader& plugins,
-                              const ShapeProgress& progress = {});
+EstimatedScene open_estimated(const SceneInput& scene, std::span<const std::string> overrides,
+                              PluginLoader& plugins, const ShapeProgress& progress = {});
 
 }  // namespace internal
 }  // namespace hypotrack

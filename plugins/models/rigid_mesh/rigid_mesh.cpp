@@ -52,7 +52,9 @@ struct RigidMeshParams {
   ShapeSettings shape;
 
   void visit(ParamVisitor& v) {
-    v("mesh", mesh, {.help = "DAE, OBJ, PLY, STL, glTF or GLB file", .required = true});
+    v("mesh", mesh,
+      {.help = "DAE, OBJ, PLY, STL, glTF or GLB file; attached:NAME: a mesh that the program holds",
+       .required = true});
     v("units", units, {.help = "unit of the file's coordinates"});
     v("scale", scale, {.help = "makes the object larger or smaller", .min = 1e-4, .max = 1e4});
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});
@@ -76,10 +78,11 @@ double metres(Unit unit) {
   return 1;
 }
 
-ModelData make_object(const RigidMeshParams& params, const PluginLog& log) {
-  ImportedMesh imported = import_mesh(
-      params.mesh, {.scale = params.scale * metres(params.units), .texture = params.texture});
-  for (const std::string& note : imported.notes) log.note(note);
+ModelData make_object(const RigidMeshParams& params, const PluginContext& context) {
+  ImportedMesh imported =
+      import_mesh(context, params.mesh,
+                  {.scale = params.scale * metres(params.units), .texture = params.texture});
+  for (const std::string& note : imported.notes) context.log().note(note);
   Eigen::Matrix3Xf& vertices = imported.mesh.vertices;
   const Eigen::Vector3f low = vertices.rowwise().minCoeff();
   const Eigen::Vector3f high = vertices.rowwise().maxCoeff();
@@ -116,8 +119,7 @@ class RigidMesh : public Model {
  public:
   using Params = RigidMeshParams;
   RigidMesh(const Params& params, PluginContext& context)
-      : RigidMesh(make_object(params, context.log()), read_shape(params.shape, size_parameters())) {
-  }
+      : RigidMesh(make_object(params, context), read_shape(params.shape, size_parameters())) {}
 
   std::vector<ShapeParameter> shape_parameters() const override {
     std::vector<ShapeParameter> parameters = size_parameters();

@@ -13,8 +13,8 @@ fail() { echo "$1"; exit 1; }
 cmake --install "$build_dir" --prefix "$scratch/prefix" >"$scratch/install.log"
 hypotrack=$scratch/prefix/bin/hypotrack
 cd "$scratch"
-cp -r "$source_dir/examples/track_frames" "$source_dir/examples/plugin_source" \
-  "$source_dir/examples/plugin_prior" .
+cp -r "$source_dir/examples/track_frames" "$source_dir/examples/track_mesh_in_memory" \
+  "$source_dir/examples/plugin_source" "$source_dir/examples/plugin_prior" .
 "$hypotrack" synth "$source_dir/configs/scenes/demo.yaml" --frames 4 --out recording
 python3 "$source_dir/tests/system/out_of_tree/make_euroc.py" recording euroc
 
@@ -48,6 +48,13 @@ END
 track_frames/build/track_frames scene.yaml recording/calibration.yaml none.png none.png \
   >/dev/null 2>message.txt && fail "a missing picture was tracked"
 grep -q 'view 0 has no image' message.txt || fail "unexpected message: $(cat message.txt)"
+
+# A program that makes its scene, its mesh and its pictures.
+cmake -S track_mesh_in_memory -B track_mesh_in_memory/build -DCMAKE_PREFIX_PATH="$scratch/prefix"
+cmake --build track_mesh_in_memory/build
+track_mesh_in_memory/build/track_mesh_in_memory | tee in_memory.txt
+[ "$(grep -c '^frame .: tracked, [0-3]\..* mm off$' in_memory.txt)" = 10 ] ||
+  fail "not all of ten frames were tracked within 4 mm"
 
 # A source of one's own.
 mkdir plugin_source/build
