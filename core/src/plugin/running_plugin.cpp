@@ -1,5 +1,6 @@
 #include "plugin/running_plugin.hpp"
 
+#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,18 +17,41 @@
 namespace hypotrack::detail::internal {
 namespace {
 
-// Of the calling thread. Initial-exec: a signal handler may not allocate thread-local memory.
-[[gnu::tls_model("initial-exec")]] thread_local const char* t_who = nullptr;
-[[gnu::tls_model("initial-exec")]] thread_local const char* t_how = "";
-
 constexpr int kNoFrame = -1;
+constexpr int kTrackedFrame = -2;
+
+/// What a thread works on.
+struct Running {
+  const char* who = nullptr;
+  const char* how = "";
+  int frame = kTrackedFrame;
+  bool known = false;  ///< the key leads here
+};
+thread_local Running t_running;
+
+/// Leads to the calling thread's Running, or to null. A signal handler may not allocate
+/// thread-local memory, as its first use in a thread does. Memory that needs no allocation
+/// (initial-exec) would keep other programs, such as Python, from loading the library.
+const pthread_key_t g_key = [] {
+  pthread_key_t made{};
+  pthread_key_create(&made, nullptr);
+  return made;
+}();
+
+Running& running() {
+  if (!t_running.known) t_running.known = pthread_setspecific(g_key, &t_running) == 0;
+  return t_running;
+}
+
+/// Returns running() if the thread has used it; else null.
+const Running* running_if_known() {
+  return static_cast<const Running*>(pthread_getspecific(g_key));
+}
+
 // Of threads that track no frame themselves. Several trackers: they might help either.
 std::atomic<int> g_frame{kNoFrame};
 std::mutex g_running;
 int g_tracked = 0;  // frames, under the mutex
-
-constexpr int kTrackedFrame = -2;
-[[gnu::tls_model("initial-exec")]] thread_local int t_frame = kTrackedFrame;
 
 /// A text of limited length.
 class FixedText {
@@ -53,13 +77,13 @@ class FixedText {
 }  // namespace
 
 RunningPlugin::RunningPlugin(const char* who, const char* how)
-    : who_(std::exchange(t_who, who)), how_(std::exchange(t_how, how)) {
+    : who_(std::exchange(running().who, who)), how_(std::exchange(running().how, how)) {
   ensure_signal_stack();
 }
 
 RunningPlugin::~RunningPlugin() {
-  t_who = who_;
-  t_how = how_;
+  t_running.who = who_;
+  t_running.how = how_;
 }
 
 RunningFrame::RunningFrame(int index) : of_thread_(index) {
@@ -73,11 +97,12 @@ RunningFrame::~RunningFrame() {
 }
 
 ThreadFrame::ThreadFrame(std::optional<int> index)
-    : before_(std::exchange(t_frame, index.value_or(kNoFrame))) {}
-ThreadFrame::~ThreadFrame() { t_frame = before_; }
+    : before_(std::exchange(running().frame, index.value_or(kNoFrame))) {}
+ThreadFrame::~ThreadFrame() { t_running.frame = before_; }
 
 std::optional<int> running_frame() {
-  const int frame = t_frame == kTrackedFrame ? g_frame.load() : t_frame;
+  const Running* const own = running_if_known();
+  const int frame = own && own->frame != kTrackedFrame ? own->frame : g_frame.load();
   return frame == kNoFrame ? std::nullopt : std::optional(frame);
 }
 
@@ -85,8 +110,9 @@ void report_end(const char* ends) {
   FixedText line;
   line << "hypotrack: ";
   if (const auto frame = running_frame()) line << "frame " << *frame << ": ";
-  if (t_who) line << t_who << ": ";
-  line << ends << t_how << "\n";
+  const Running* const own = running_if_known();
+  if (own && own->who) line << own->who << ": ";
+  line << ends << (own ? own->how : "") << "\n";
   [[maybe_unused]] const ssize_t written =
       write(STDERR_FILENO, line.text().data(), line.text().size());
 }

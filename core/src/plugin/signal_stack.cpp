@@ -35,7 +35,7 @@ class SignalStack {
 };
 
 // Beside the object, because asking for that takes longer.
-[[gnu::tls_model("initial-exec")]] thread_local bool t_ensured = false;
+thread_local bool t_ensured = false;
 
 }  // namespace
 
