@@ -15,6 +15,7 @@
 #include "base/profile.hpp"
 #include "base/stop_scope.hpp"
 #include "cost/backends.hpp"
+#include "cost/batched_terms.hpp"
 #include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_renderer.hpp"
 #include "cost/linearizer_pool.hpp"
@@ -44,7 +45,8 @@ class HostCost final : public Cost, public StateResiduals {
       : Cost(scene, std::move(all)),
         why_here_(std::move(why_here)),
         renderer_(make_renderer(scene, settings, any_draws(terms()))),
-        arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
+        arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()),
+        batched_(terms()) {
     if (TermResiduals::why_none(terms()).empty()) residuals_.emplace(terms());
     if (residuals_ && HostLinearizer::can_linearize(terms())) {
       const auto make = [this, &scene](int bands) {
@@ -127,14 +129,26 @@ class HostCost final : public Cost, public StateResiduals {
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
+    if (!batched_.any()) return score(states, costs);
+    for (Eigen::Index first = 0; first < states.cols(); first += batched_.most()) {
+      const Eigen::Index count = std::min(batched_.most(), states.cols() - first);
+      batched_.begin(count);
+      score(states.middleCols(first, count), costs.segment(first, count));
+      batched_.add(costs.segment(first, count));
+    }
+  }
+
+ private:
+  /// Computes the costs of states without the batched terms, for which it keeps the drawings.
+  void score(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) {
     render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      if (batched_.any()) batched_.keep(index, hypothesis);
       costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
-        return terms()[t].objective->cost(drawn);
+        return batched_.has(t) ? 0 : terms()[t].objective->cost(drawn);
       });
     });
   }
 
- private:
   /// Memory of Differences, kept from search to search.
   struct DifferenceMemory {
     Eigen::MatrixXf batch;  // residuals of the last batch of evaluate()
@@ -252,6 +266,7 @@ class HostCost final : public Cost, public StateResiduals {
   std::unique_ptr<HypothesisRenderer> renderer_;
   tbb::task_arena arena_;  // for work that is not on hypotheses
   bool terms_at_once_ = false;
+  BatchedTerms batched_;
   // Set if the terms can be linearised: for a few points at a time, and for many.
   std::optional<LinearizerPool> linearizers_, narrow_linearizers_;
   tbb::enumerable_thread_specific<std::vector<float>> residual_memory_;  // of one hypothesis

@@ -1,5 +1,6 @@
 // Out-of-line destructors anchor vtables in libhypotrack.so, so that dynamic casts work across
 // plugin libraries.
+#include "hypotrack/batch_objective.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
@@ -25,6 +26,7 @@ void ResidualTerm::write_jacobian(const RenderedHypothesis&, std::span<float>, J
   throw Error("this objective has no Jacobian of its residuals");
 }
 RefinesStart::~RefinesStart() = default;
+BatchObjective::~BatchObjective() = default;
 Objective::~Objective() = default;
 const ResidualTerm* Objective::residual_term() const { return nullptr; }
 double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,

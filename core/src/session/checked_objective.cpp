@@ -26,6 +26,7 @@ bool all_finite(std::span<const float> numbers) {
 CheckedObjective::CheckedObjective(std::unique_ptr<Objective> objective, std::string who)
     : objective_(std::move(objective)),
       refines_start_(dynamic_cast<const RefinesStart*>(objective_.get())),
+      batched_(dynamic_cast<const BatchObjective*>(objective_.get())),
       who_(std::move(who)) {
   residuals_ = detail::call_plugin(who_, [&] { return objective_->residual_term(); });
 }
@@ -39,6 +40,13 @@ void CheckedObjective::prepare(const Observation& observation) {
 double CheckedObjective::cost(const RenderedHypothesis& hypothesis) const {
   const TimeSum::Scope time(times_->cost);
   return checked(detail::call_plugin(who_, [&] { return objective_->cost(hypothesis); }));
+}
+
+void CheckedObjective::costs(std::span<const RenderedHypothesis> hypotheses,
+                             std::span<double> costs) const {
+  const TimeSum::Scope time(times_->cost);
+  detail::call_plugin(who_, [&] { batched_->costs(hypotheses, costs); });
+  for (const double cost : costs) checked(cost);
 }
 
 double CheckedObjective::checked(double cost) const {

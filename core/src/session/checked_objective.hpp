@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "hypotrack/batch_objective.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/refines_start.hpp"
 #include "session/term_times.hpp"
@@ -16,7 +17,10 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's objective: names it in what it throws and where it crashes, checks its
 /// costs and residuals, and measures how long it works.
-class CheckedObjective final : public Objective, public ResidualTerm, public RefinesStart {
+class CheckedObjective final : public Objective,
+                               public ResidualTerm,
+                               public RefinesStart,
+                               public BatchObjective {
  public:
   /// `who`: plugin_label() of the objective, which must not be null.
   CheckedObjective(std::unique_ptr<Objective> objective, std::string who);
@@ -43,6 +47,12 @@ class CheckedObjective final : public Objective, public ResidualTerm, public Ref
   /// a state of another size, or not finite.
   Eigen::VectorXd refined_start() const override;
 
+  // BatchObjective
+  int most_at_once() const override { return batched_ ? batched_->most_at_once() : 0; }
+  /// Throws PluginError as cost() does.
+  void costs(std::span<const RenderedHypothesis> hypotheses,
+             std::span<double> costs) const override;
+
   // ResidualTerm
   /// Throws PluginError if the number is negative, or more than memory can hold.
   std::int64_t residual_count() const override;
@@ -65,6 +75,7 @@ class CheckedObjective final : public Objective, public ResidualTerm, public Ref
   std::unique_ptr<Objective> objective_;
   const ResidualTerm* residuals_;      ///< of the objective; null: none
   const RefinesStart* refines_start_;  ///< the objective; null: it does not
+  const BatchObjective* batched_;      ///< the objective; null: it is not
   Eigen::Index dimension_ = 0;         ///< of the prepared frame's state
   std::string who_;
   std::shared_ptr<TermTimes> times_ = std::make_shared<TermTimes>();
