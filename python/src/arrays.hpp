@@ -1,0 +1,61 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "common.hpp"
+
+// numpy arrays as matrices and pictures, and back.
+
+namespace hypotrack::python {
+
+/// An array of float64 with rows one after the other; other numbers are converted.
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// States or points: an array (N, D), or (D) for one.
+using ColumnsMap = Eigen::Map<const Eigen::MatrixXd>;
+
+enum class Pixels { color, mask, depth };
+
+/// Returns a picture that shares the array's memory and keeps it alive: uint8 (H, W, 3) in BGR,
+/// uint8 or bool (H, W) of a mask, float32 (H, W) of a depth map. Throws DataError, naming `what`,
+/// on other types, shapes and rows with gaps.
+cv::Mat picture_of(const py::handle& array, Pixels pixels, const std::string& what);
+
+/// Returns a read-only array that shares the picture's memory; None for an empty picture.
+py::object array_of(const cv::Mat& picture);
+
+/// Returns the states or points of an array as columns (DxN), without a copy. Throws Error unless
+/// its last axis has `dimension` numbers.
+ColumnsMap columns_of(const Doubles& array, Eigen::Index dimension, const char* what);
+
+/// Returns an array (D) or (N, D) with the columns (DxN) of a matrix; (D) if `flat`.
+template <class Scalar>
+py::array_t<Scalar> rows_of(const Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>& columns,
+                            bool flat = false) {
+  std::vector<py::ssize_t> shape;
+  if (!flat) shape.push_back(columns.cols());
+  shape.push_back(columns.rows());
+  return py::array_t<Scalar>(shape, columns.data());  // copies
+}
+
+/// Returns an array of the numbers of a vector.
+py::array_t<double> array_of(const Eigen::VectorXd& vector);
+py::array_t<double> array_of(const std::vector<double>& numbers);
+/// Returns an array (N, 3) with the points of a matrix (3xN).
+py::array_t<double> points_of(const Eigen::Matrix3Xd& points);
+/// Returns a vector of an array (D). Throws Error, naming `what`, on other shapes.
+Eigen::VectorXd vector_of(const Doubles& array, const char* what);
+/// Returns a matrix of an array (R, C). Throws Error, naming `what`, on other shapes.
+Eigen::MatrixXd matrix_of(const Doubles& array, Eigen::Index rows, Eigen::Index columns,
+                          const char* what);
+/// Returns points (3xN) of an array (N, 3). Throws Error, naming `what`, on other shapes.
+Eigen::Matrix3Xd matrix_of_points(const Doubles& array, const char* what);
+
+/// Returns `(480, 640, 3)`.
+std::string shape_text(const py::array& array);
+
+}  // namespace hypotrack::python

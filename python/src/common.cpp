@@ -1,0 +1,71 @@
+#include "common.hpp"
+
+namespace hypotrack::python {
+
+Held::~Held() {
+  if (!object_) return;
+  if (!Py_IsInitialized()) {
+    object_.release();  // Python is gone, and the object with it
+    return;
+  }
+  const py::gil_scoped_acquire acquire;
+  object_ = py::object();
+}
+
+std::string text_of(const py::error_already_set& error) {
+  try {
+    const py::object none = py::none();
+    const py::object lines = py::module_::import("traceback")
+                                 .attr("format_exception")(error.type(), error.value(),
+                                                           error.trace() ? error.trace() : none);
+    std::string text = py::cast<std::string>(py::str("").attr("join")(lines));
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    return text;
+  } catch (const py::error_already_set&) {
+    return error.what();
+  }
+}
+
+void rethrow_from_python(py::error_already_set& error) {
+  if (error.matches(PyExc_KeyboardInterrupt)) throw Stopped();
+  const std::string type = py::cast<std::string>(error.type().attr("__name__"));
+  throw PluginError("its Python code raised " + type + ":\n" + text_of(error));
+}
+
+bool Interrupts::operator()() {
+  if (raised_) return true;
+  if (std::this_thread::get_id() != thread_) return false;
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return false;
+  next_ = now + std::chrono::milliseconds(50);
+  const py::gil_scoped_acquire acquire;
+  if (PyErr_CheckSignals() == 0) return false;
+  error_.emplace();  // takes what was thrown
+  raised_ = true;
+  return true;
+}
+
+void add_errors(py::module_& module) {
+  const auto& error = py::register_exception<Error>(module, "Error");
+  error.attr("__doc__") = "Base of all exceptions of hypotrack. The message is complete.";
+  const auto add = [&]<class E>(const char* name, const char* doc, E*) {
+    py::register_exception<E>(module, name, error).attr("__doc__") = doc;
+  };
+  add("ConfigError", "An invalid scene or parameter.", static_cast<ConfigError*>(nullptr));
+  add("DataError", "An unusable picture, mesh, calibration or table.",
+      static_cast<DataError*>(nullptr));
+  add("PluginError", "A plugin that is missing or breaks its contract, or that raised.",
+      static_cast<PluginError*>(nullptr));
+  add("DeviceError", "A missing or failed GPU or OpenGL context.",
+      static_cast<DeviceError*>(nullptr));
+  add("OutputError", "A result that cannot be written.", static_cast<OutputError*>(nullptr));
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Stopped&) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
+  });
+}
+
+}  // namespace hypotrack::python

@@ -1,0 +1,98 @@
+#include "document.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+
+namespace hypotrack::python {
+namespace {
+
+constexpr int kMostLevels = 64;
+
+std::string below(const std::string& path, const std::string& step) {
+  return path.empty() ? step : path + "." + step;
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& problem) {
+  throw ConfigError(fmt::format("{}{}", path.empty() ? "" : path + ": ", problem));
+}
+
+ConfigValue convert(const py::handle& object, const std::string& path, int level);
+
+ConfigValue convert_dict(const py::dict& dict, const std::string& path, int level) {
+  ConfigValue::Map entries;
+  for (const auto& [key, value] : dict) {
+    if (!py::isinstance<py::str>(key))
+      fail(path, fmt::format("the key {} is no text", py::cast<std::string>(py::repr(key))));
+    const auto name = py::cast<std::string>(key);
+    entries.emplace_back(name, convert(value, below(path, name), level + 1));
+  }
+  return ConfigValue::map(entries);
+}
+
+ConfigValue convert_items(const py::handle& items, const std::string& path, int level) {
+  ConfigValue::List list;
+  std::size_t i = 0;
+  for (const py::handle item : items)
+    list.push_back(convert(item, below(path, std::to_string(i++)), level + 1));
+  return ConfigValue::list(list);
+}
+
+ConfigValue convert_integer(const py::handle& object, const std::string& path) {
+  const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(object.ptr()));
+  if (!number) throw py::error_already_set();
+  int overflow = 0;
+  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0) fail(path, "the integer has more than 64 bits");
+  return ConfigValue(value);
+}
+
+ConfigValue convert(const py::handle& object, const std::string& path, int level) {
+  if (level > kMostLevels) fail(path, fmt::format("nested deeper than {} levels", kMostLevels));
+  if (object.is_none()) return {};
+  if (py::isinstance<py::bool_>(object)) return ConfigValue(object.cast<bool>());
+  if (py::isinstance<py::str>(object)) return ConfigValue(object.cast<std::string>());
+  if (py::isinstance<py::dict>(object))
+    return convert_dict(py::reinterpret_borrow<py::dict>(object), path, level);
+  if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
+    return convert_items(object, path, level);
+  if (py::isinstance<py::array>(object) || py::hasattr(object, "tolist"))  // and numpy's scalars
+    return convert(object.attr("tolist")(), path, level + 1);
+  if (PyIndex_Check(object.ptr())) return convert_integer(object, path);
+  if (py::isinstance<py::float_>(object)) return ConfigValue(object.cast<double>());
+  if (py::hasattr(object, "__fspath__"))
+    return ConfigValue(object.attr("__fspath__")().cast<std::string>());
+  fail(path, fmt::format("expected a dict, list, text, number, bool, path or None; found {}",
+                         py::cast<std::string>(py::type::of(object).attr("__name__"))));
+}
+
+}  // namespace
+
+ConfigValue value_of(const py::handle& object, const std::string& path) {
+  return convert(object, path, 0);
+}
+
+py::object object_of(const ConfigNode& node) {
+  if (node.is_map()) {
+    py::dict dict;
+    for (const std::string& key : node.keys()) dict[py::str(key)] = object_of(node.get(key));
+    return dict;
+  }
+  if (node.is_list()) {
+    py::list list;
+    for (std::size_t i = 0; i < node.size(); ++i) list.append(object_of(node.at(i)));
+    return list;
+  }
+  if (node.is_null() || !node.defined()) return py::none();
+  const std::string& text = node.scalar();
+  if (!node.is_plain()) return py::str(text);
+  if (text == "true" || text == "false") return py::bool_(text == "true");
+  for (const char* type : {"int", "float"}) {
+    try {
+      return py::module_::import("builtins").attr(type)(text);
+    } catch (const py::error_already_set&) {  // another type
+    }
+  }
+  return py::str(text);
+}
+
+}  // namespace hypotrack::python

@@ -1,0 +1,152 @@
+#include "plugins.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+
+#include "hypotrack/plugin_log.hpp"
+
+namespace hypotrack::python {
+namespace {
+
+std::vector<ProgramPlugin>& registry() {
+  static auto* const kPlugins = new std::vector<ProgramPlugin>;  // outlives Python
+  return *kPlugins;
+}
+
+[[noreturn]] void fail(const py::object& type, const std::string& problem) {
+  throw PluginError(fmt::format(
+      "{}: {}", py::cast<std::string>(py::getattr(type, "__name__", py::repr(type))), problem));
+}
+
+/// Returns the value of a default, or one of the annotated type.
+PythonParams::Value value_of_default(const py::object& type, const std::string& name,
+                                     const py::object& value, const py::object& annotation) {
+  const auto is = [&](const char* text) {
+    return annotation.is(py::module_::import("builtins").attr(text)) ||
+           (py::isinstance<py::str>(annotation) && py::cast<std::string>(annotation) == text);
+  };
+  const py::object path = py::module_::import("pathlib").attr("PurePath");
+  const bool given = static_cast<bool>(value);
+  if (given ? py::isinstance<py::bool_>(value) : is("bool")) return given && py::cast<bool>(value);
+  if (given && py::isinstance<py::int_>(value) && is("float")) return py::cast<double>(value);
+  if (given ? py::isinstance<py::int_>(value) : is("int"))
+    return given ? py::cast<std::int64_t>(value) : 0;
+  if (given ? py::isinstance<py::float_>(value) : is("float"))
+    return given ? py::cast<double>(value) : 0.0;
+  if (given ? py::isinstance<py::str>(value) : is("str"))
+    return given ? py::cast<std::string>(value) : std::string();
+  if (given && py::isinstance(value, path)) return py::cast<std::filesystem::path>(value);
+  if (!given && py::isinstance(annotation, py::module_::import("builtins").attr("type")) &&
+      PyObject_IsSubclass(annotation.ptr(), path.ptr()) == 1)
+    return std::filesystem::path();
+  if (given && (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))) {
+    const auto items = py::cast<py::sequence>(value);
+    if (items.size() > 0 && py::isinstance<py::str>(items[0]))
+      return py::cast<std::vector<std::string>>(value);
+    return py::cast<std::vector<double>>(value);
+  }
+  fail(type, fmt::format("the parameter '{}' of its constructor has no type that scenes can give; "
+                         "write a default, or an annotation: bool, int, float, str or Path",
+                         name));
+}
+
+py::object to_python(const PythonParams::Value& value) {
+  return std::visit([](const auto& v) -> py::object { return py::cast(v); }, value);
+}
+
+template <class T>
+ProgramPlugin plugin_of(const std::string& name, const py::object& type,
+                        std::unique_ptr<T> (*wrap)(std::shared_ptr<Held>)) {
+  const auto held = std::make_shared<Held>(type);
+  constexpr bool kHasScene = !std::is_same_v<T, Model>;
+  return program_plugin<T>(name, [held, wrap](PluginContext& context) {
+    return wrap(make_object(held->get(), context, kHasScene));
+  });
+}
+
+ProgramPlugin make_plugin(const std::string& kind, const std::string& name,
+                          const py::object& type) {
+  if (kind == kPluginKind<Optimizer>) return plugin_of(name, type, &python_optimizer);
+  if (kind == kPluginKind<Objective>) return plugin_of(name, type, &python_objective);
+  if (kind == kPluginKind<Source>) return plugin_of(name, type, &python_source);
+  if (kind == kPluginKind<Output>) return plugin_of(name, type, &python_output);
+  throw PluginError(fmt::format(
+      "there are no plugins of the kind '{}' in Python; expected optimizer, objective, source or "
+      "output",
+      kind));
+}
+
+void register_plugin(std::string kind, const std::string& name, const py::object& type) {
+  if (kind.ends_with('s')) kind.pop_back();
+  (void)params_of(type);  // finds mistakes now
+  ProgramPlugin plugin = make_plugin(kind, name, type);
+  PluginLoader().add(plugin);  // the same
+  auto& all = registry();
+  std::erase_if(all, [&](const ProgramPlugin& p) { return p.kind == kind && p.name == name; });
+  all.push_back(std::move(plugin));
+}
+
+}  // namespace
+
+void PythonParams::visit(ParamVisitor& v) {
+  for (Parameter& p : all)
+    std::visit([&](auto& value) { v(p.name, value, {.help = "", .required = p.required}); },
+               p.value);
+}
+
+PythonParams params_of(const py::object& type) {
+  PythonParams params;
+  if (!PyType_Check(type.ptr())) fail(type, "expected a class");
+  const py::object init = type.attr("__init__");
+  if (init.is(py::module_::import("builtins").attr("object").attr("__init__"))) return params;
+  const py::module_ inspect = py::module_::import("inspect");
+  const py::object kinds = inspect.attr("Parameter");
+  bool is_self = true;
+  for (const py::handle item :
+       inspect.attr("signature")(init).attr("parameters").attr("values")()) {
+    if (std::exchange(is_self, false)) continue;
+    const py::object kind = item.attr("kind");
+    if (kind.equal(kinds.attr("VAR_POSITIONAL")) || kind.equal(kinds.attr("VAR_KEYWORD"))) continue;
+    const auto name = py::cast<std::string>(item.attr("name"));
+    const py::object given = item.attr("default");
+    const bool required = given.is(kinds.attr("empty"));
+    params.all.push_back(
+        {name,
+         value_of_default(type, name, required ? py::object() : given, item.attr("annotation")),
+         required});
+  }
+  return params;
+}
+
+std::shared_ptr<Held> make_object(const py::object& type, PluginContext& context, bool has_scene) {
+  const PythonParams params = context.read(in_python([&] { return params_of(type); }));
+  return in_python([&] {
+    py::dict arguments;
+    for (const PythonParams::Parameter& p : params.all)
+      arguments[py::str(p.name)] = to_python(p.value);
+    const py::object object = type.attr("__new__")(type);
+    object.attr("log") = context.log();
+    if (has_scene) object.attr("scene") = std::make_shared<Scene>(context.scene());
+    object.attr("__init__")(**arguments);
+    return std::make_shared<Held>(object);
+  });
+}
+
+std::vector<ProgramPlugin> registered_plugins() { return registry(); }
+
+void add_plugins(py::module_& module) {
+  py::class_<PluginLog>(module, "PluginLog", "Tells the user something under a plugin's name.")
+      .def("note", &PluginLog::note, py::arg("text"), py::call_guard<py::gil_scoped_release>(),
+           "Tells what is good to know, once per text.")
+      .def("warning", &PluginLog::warning, py::arg("text"),
+           py::call_guard<py::gil_scoped_release>(), "Tells what probably makes results worse.");
+  module.def("register", &register_plugin, py::arg("kind"), py::arg("name"), py::arg("cls"),
+             "Makes a class the plugin `type: name` of scenes that are opened afterwards in this "
+             "process. `kind` is optimizer, objective, source or output. The parameters of its "
+             "constructor are those of the plugin. Objects get `log` and `scene` before it runs.");
+}
+
+}  // namespace hypotrack::python

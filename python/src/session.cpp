@@ -1,0 +1,209 @@
+#include "hypotrack/session.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <map>
+
+#include "document.hpp"
+#include "frame_cost.hpp"
+#include "frames.hpp"
+#include "plugins.hpp"
+#include "tracker.hpp"
+
+namespace hypotrack::python {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// Returns a mesh of (vertices, triangles) or (vertices, triangles, colors).
+MeshArrays mesh_of(const std::string& name, const py::handle& object) {
+  const auto fail = [&](const std::string& problem) {
+    throw DataError(fmt::format("meshes: {}: {}", name, problem));
+  };
+  if (!py::isinstance<py::tuple>(object) && !py::isinstance<py::list>(object))
+    fail("expected (vertices, triangles) or (vertices, triangles, colors)");
+  const auto parts = py::cast<py::sequence>(object);
+  if (parts.size() != 2 && parts.size() != 3)
+    fail(
+        fmt::format("found {} parts, expected (vertices, triangles) or (vertices, triangles, "
+                    "colors)",
+                    parts.size()));
+  MeshArrays mesh;
+  mesh.vertices =
+      matrix_of_points(py::cast<Doubles>(parts[0]), (name + ": vertices").c_str()).cast<float>();
+  const auto corners = py::cast<py::array>(parts[1]);
+  if (corners.dtype().kind() != 'i' && corners.dtype().kind() != 'u')
+    fail("triangles: expected an array of integers");
+  mesh.triangles =
+      matrix_of_points(py::cast<Doubles>(parts[1]), (name + ": triangles").c_str()).cast<int>();
+  if (parts.size() == 2 || parts[2].is_none()) return mesh;
+  const auto colors = py::cast<py::array>(parts[2]);
+  if (colors.dtype().kind() != 'u' || colors.itemsize() != 1)
+    fail("colors: expected an array of uint8, RGB from 0 to 255");
+  mesh.colors = matrix_of_points(py::cast<Doubles>(parts[2]), (name + ": colors").c_str())
+                    .cast<std::uint8_t>();
+  return mesh;
+}
+
+/// Follows a run for a Python function, which may end it.
+class Callbacks final : public RunWatcher {
+ public:
+  Callbacks(const py::object& on_frame, const py::object& say, std::shared_ptr<Scene> scene)
+      : on_frame_(on_frame), say_(say), scene_(std::move(scene)) {}
+
+  bool stop() override { return stopped_; }
+  void say(const std::string& text) override {
+    if (say_.get().is_none()) return;
+    call([&] { say_.get()(text); });
+  }
+  void frame(const Frame& frame, const Solution& solution, double error) override {
+    if (on_frame_.get().is_none()) return;
+    call([&] {
+      const py::object answer =
+          on_frame_.get()(std::make_shared<Frame>(frame), NamedSolution{solution, scene_}, error);
+      if (answer.is(py::bool_(false))) stopped_ = true;
+    });
+  }
+  /// Throws what a function threw, if it did. The caller has the GIL.
+  void rethrow() const {
+    if (error_) throw py::error_already_set(*error_);
+  }
+
+ private:
+  template <class Function>
+  void call(const Function& function) {
+    if (stopped_) return;
+    const py::gil_scoped_acquire acquire;
+    try {
+      function();
+    } catch (py::error_already_set& error) {
+      error_ = error;
+      stopped_ = true;
+    }
+  }
+
+  Held on_frame_, say_;
+  std::shared_ptr<Scene> scene_;
+  std::atomic<bool> stopped_ = false;
+  std::optional<py::error_already_set> error_;
+};
+
+/// A session that Python owns.
+class PythonSession {
+ public:
+  PythonSession(const py::object& scene, const py::object& set, std::vector<Path> plugin_path,
+                const py::dict& meshes, const std::string& name, const Path& directory) {
+    SessionOptions options{.set = overrides_of(set), .plugin_path = std::move(plugin_path)};
+    options.plugins = registered_plugins();
+    for (const auto& [key, value] : meshes) {
+      const auto of = py::cast<std::string>(key);
+      options.meshes.emplace(of, mesh_of(of, value));
+    }
+    if (py::isinstance<py::dict>(scene)) {
+      const ConfigNode document = value_of(scene).document(name, directory);
+      session_ = without_gil([&] { return std::make_unique<Session>(document, options); });
+    } else {
+      const auto file = py::cast<Path>(scene);
+      session_ = without_gil([&] { return std::make_unique<Session>(file, options); });
+    }
+    scene_ = std::make_shared<Scene>(session_->scene());
+  }
+  ~PythonSession() { end_without_gil(session_); }
+  PythonSession(const PythonSession&) = delete;
+  PythonSession& operator=(const PythonSession&) = delete;
+
+  std::unique_ptr<PythonTracker> tracker(const std::vector<Camera>& cameras) {
+    const Busy busy(busy_, "session");
+    return std::make_unique<PythonTracker>(without_gil([&] { return session_->tracker(cameras); }));
+  }
+
+  std::unique_ptr<PythonFrameCost> frame_cost(const std::vector<Camera>& cameras) {
+    const Busy busy(busy_, "session");
+    return std::make_unique<PythonFrameCost>(
+        without_gil([&] { return session_->frame_cost(cameras); }));
+  }
+
+  bool run(const std::optional<Path>& out, std::optional<int> frames, const py::object& on_frame,
+           const py::object& say) {
+    const Busy busy(busy_, "session");
+    Callbacks callbacks(on_frame, say, scene_);
+    Interrupts interrupts;
+    bool complete = false;
+    try {
+      complete = without_gil([&] {
+        return session_->run({.out = out.value_or(Path()),
+                              .frames = frames,
+                              .stop_now = [&] { return interrupts(); }},
+                             callbacks);
+      });
+    } catch (const Error&) {
+      callbacks.rethrow();  // it came first
+      throw;
+    }
+    callbacks.rethrow();
+    interrupts.rethrow();
+    return complete;
+  }
+
+  const std::shared_ptr<Scene>& scene() const { return scene_; }
+
+ private:
+  static std::vector<std::string> overrides_of(const py::object& set) {
+    if (!py::isinstance<py::dict>(set)) return py::cast<std::vector<std::string>>(set);
+    std::vector<std::string> overrides;
+    const py::object dumps = py::module_::import("json").attr("dumps");
+    for (const auto& [key, value] : py::cast<py::dict>(set)) {
+      const auto path = py::cast<std::string>(key);
+      const ConfigNode node = value_of(value, path).document(path);  // refuses what is no value
+      overrides.push_back(
+          fmt::format("{}={}", path, py::cast<std::string>(dumps(object_of(node)))));
+    }
+    return overrides;
+  }
+
+  std::unique_ptr<Session> session_;
+  std::shared_ptr<Scene> scene_;
+  std::atomic<bool> busy_ = false;
+};
+
+}  // namespace
+
+void add_session(py::module_& module) {
+  py::class_<PythonSession>(module, "Session",
+                            "A scene, opened: its models, objective and optimizer are made and "
+                            "checked.")
+      .def(py::init<const py::object&, const py::object&, std::vector<Path>, const py::dict&,
+                    const std::string&, const Path&>(),
+           py::arg("scene"), py::kw_only(), py::arg("set") = py::list(),
+           py::arg("plugin_path") = std::vector<Path>(), py::arg("meshes") = py::dict(),
+           py::arg("name") = "scene", py::arg("directory") = Path(),
+           "Opens a scene: the path of a file, or a dict with what a file would say. `name` stands "
+           "before the key path in messages on a dict, whose relative paths refer to "
+           "`directory`.\n\n"
+           "set: overrides, a list of `key.path=value` or a dict of key path to value.\n"
+           "plugin_path: folders to search before the usual ones.\n"
+           "meshes: {name: (vertices, triangles[, colors])} for `mesh: attached:NAME`: float (V, "
+           "3), "
+           "int (T, 3) counter-clockwise from outside, uint8 RGB (V, 3).\n\n"
+           "Raises ConfigError, PluginError, DataError or DeviceError.")
+      .def_property_readonly("scene", &PythonSession::scene, "The models that the scene names.")
+      .def("tracker", &PythonSession::tracker, py::arg("cameras"),
+           "Makes a Tracker for frames from a list of Cameras, the first is the left one. It is "
+           "independent of the session.")
+      .def("frame_cost", &PythonSession::frame_cost, py::arg("cameras"),
+           "Makes a FrameCost for frames from a list of Cameras, which need sizes.")
+      .def("run", &PythonSession::run, py::arg("out") = py::none(), py::kw_only(),
+           py::arg("frames") = py::none(), py::arg("on_frame") = py::none(),
+           py::arg("say") = py::none(),
+           "Tracks the frames of the scene's own source. Returns False if a callback ended it.\n\n"
+           "out: folder for tables, video and summary; None: no files.\n"
+           "frames: stops after this many.\n"
+           "on_frame(frame, solution, error): is called for every frame; `error` is the mean "
+           "distance of the landmarks from the truth in metres, or NaN. The run ends if it returns "
+           "False; what it raises ends it, too, and comes out of run().\n"
+           "say(text): receives lines for the user.");
+}
+
+}  // namespace hypotrack::python
