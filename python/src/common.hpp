@@ -121,6 +121,7 @@ void add_frames(py::module_& module);
 void add_solution(py::module_& module);
 void add_frame_cost(py::module_& module);
 void add_tracker(py::module_& module);
+void add_source(py::module_& module);
 void add_session(py::module_& module);
 void add_renderer(py::module_& module);
 void add_metrics(py::module_& module);

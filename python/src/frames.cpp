@@ -28,15 +28,16 @@ py::object truth_landmarks(const Frame& frame) {
   return points_of(frame.truth->landmarks);
 }
 
-Frame make_frame(const py::object& views, double time, int index, const py::object& state) {
+Frame make_frame(const py::object& views, double time, int index, const py::object& state,
+                 const py::object& landmarks) {
   Frame frame;
   frame.views = views_of(views);
   frame.time = time;
   frame.index = index;
-  if (!state.is_none()) {
-    frame.truth.emplace();
-    frame.truth->state = vector_of(py::cast<Doubles>(state), "true_state");
-  }
+  if (!state.is_none() || !landmarks.is_none()) frame.truth.emplace();
+  if (!state.is_none()) frame.truth->state = vector_of(py::cast<Doubles>(state), "true_state");
+  if (!landmarks.is_none())
+    frame.truth->landmarks = matrix_of_points(py::cast<Doubles>(landmarks), "true_landmarks");
   if (frame.views.empty()) frame.problem = "there are no pictures";
   return frame;
 }
@@ -78,11 +79,10 @@ void add_frames(py::module_& module) {
           "Read-only array uint8 (H, W), or None.");
   py::class_<Frame, std::shared_ptr<Frame>>(module, "Frame", "All views of one instant.")
       .def(py::init(&make_frame), py::arg("views"), py::arg("time"), py::arg("index") = -1,
-           py::arg("true_state") = py::none(),
+           py::arg("true_state") = py::none(), py::arg("true_landmarks") = py::none(),
            "Takes a list of Views or colour pictures, one per camera (empty: no usable frame), and "
-           "the time in seconds. An index of -1 is the next one of a source. `true_state` (D,) is "
-           "the ground truth, if it "
-           "is known.")
+           "the time in seconds. An index of -1 is the next one of a source. `true_state` (D,) and "
+           "`true_landmarks` (L, 3), metres, NaN where unknown, are the ground truth.")
       .def_readonly("index", &Frame::index, "Number within the source.")
       .def_readonly("time", &Frame::time, "Seconds since the first frame.")
       .def_property_readonly(

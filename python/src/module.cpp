@@ -18,5 +18,6 @@ PYBIND11_MODULE(_core, module) {
   add_objective(module);
   add_plugins(module);
   add_tracker(module);
+  add_source(module);
   add_session(module);
 }

@@ -10,6 +10,7 @@
 #include "frame_cost.hpp"
 #include "frames.hpp"
 #include "plugins.hpp"
+#include "source.hpp"
 #include "tracker.hpp"
 
 namespace hypotrack::python {
@@ -125,6 +126,11 @@ class PythonSession {
         without_gil([&] { return session_->frame_cost(cameras); }));
   }
 
+  std::unique_ptr<PythonSceneSource> source() {
+    const Busy busy(busy_, "session");
+    return std::make_unique<PythonSceneSource>(without_gil([&] { return session_->source(); }));
+  }
+
   bool run(const std::optional<Path>& out, std::optional<int> frames, const py::object& on_frame,
            const py::object& say) {
     const Busy busy(busy_, "session");
@@ -194,6 +200,8 @@ void add_session(py::module_& module) {
            "independent of the session.")
       .def("frame_cost", &PythonSession::frame_cost, py::arg("cameras"),
            "Makes a FrameCost for frames from a list of Cameras, which need sizes.")
+      .def("source", &PythonSession::source,
+           "Opens the scene's own source, for its frames alone. It is independent of the session.")
       .def("run", &PythonSession::run, py::arg("out") = py::none(), py::kw_only(),
            py::arg("frames") = py::none(), py::arg("on_frame") = py::none(),
            py::arg("say") = py::none(),

@@ -16,6 +16,7 @@
 #include "hypotrack/program_plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/solution.hpp"
+#include "hypotrack/source.hpp"
 #include "hypotrack/stop.hpp"
 #include "hypotrack/tracker.hpp"
 
@@ -85,6 +86,10 @@ class HYPOTRACK_API Session {
   /// Makes the cost of states in frames from these cameras, which need sizes. It is independent of
   /// the session. Throws DataError on invalid cameras, ConfigError or DeviceError.
   FrameCost frame_cost(std::vector<Camera> cameras);
+
+  /// Opens the scene's own source, for programs that want its frames alone. It is independent of
+  /// the session. Throws ConfigError if the scene names none, and the errors of models and source.
+  std::unique_ptr<Source> source();
 
   /// Tracks the frames of the scene's own source. Returns false if the watcher or
   /// RunOptions::stop_now ended the run.

@@ -17,6 +17,26 @@ void RunWatcher::say(const std::string& /*text*/) {}
 void RunWatcher::begin(std::optional<int> /*frames*/) {}
 void RunWatcher::frame(const Frame& /*frame*/, const Solution& /*solution*/, double /*error*/) {}
 
+namespace {
+
+/// The source of a scene with the scene that it is of.
+class SourceOfScene final : public Source {
+ public:
+  explicit SourceOfScene(OpenedScene opened) : opened_(std::move(opened)) {}
+  const std::vector<Camera>& cameras() const override { return opened_.source->cameras(); }
+  double frame_rate() const override { return opened_.source->frame_rate(); }
+  std::optional<int> frame_count() const override { return opened_.source->frame_count(); }
+  std::optional<Frame> next() override { return opened_.source->next(); }
+  bool live() const override { return opened_.source->live(); }
+  std::vector<std::string> notes() const override { return opened_.source->notes(); }
+  std::vector<std::string> statistics() const override { return opened_.source->statistics(); }
+
+ private:
+  OpenedScene opened_;
+};
+
+}  // namespace
+
 struct Session::Impl {
   Impl(SceneInput input, SessionOptions session_options)
       : scene(std::move(input)), options(std::move(session_options)), plugins(options.plugin_path) {
@@ -55,6 +75,11 @@ Tracker Session::tracker(std::vector<Camera> cameras) {
 FrameCost Session::frame_cost(std::vector<Camera> cameras) {
   const cuda::KeepDevice keep;
   return FrameCost(std::make_unique<FrameCost::Impl>(impl_->open(), std::move(cameras)));
+}
+
+std::unique_ptr<Source> Session::source() {
+  return std::make_unique<SourceOfScene>(
+      open_source(impl_->scene, impl_->options.set, impl_->plugins));
 }
 
 bool Session::run(const RunOptions& options, RunWatcher& watcher) {

@@ -204,6 +204,19 @@ TEST_F(SessionTest, WithoutASourceTracksButDoesNotRun) {
               HasSubstr("source: required key is missing"));
 }
 
+TEST_F(SessionTest, GivesTheFramesOfItsSource) {
+  const std::vector<Frame> given = frames();
+  std::unique_ptr<Source> source;
+  source = Session(scene(std::string(kRest) + kSource + kStart)).source();
+  EXPECT_EQ(source->frame_count(), 3);
+  EXPECT_EQ(source->cameras().size(), cameras_.size());
+  for (const Frame& frame : given) EXPECT_EQ(source->next()->truth->state, frame.truth->state);
+  EXPECT_FALSE(source->next());
+  EXPECT_THAT(
+      message_of<ConfigError>([&] { Session(scene(std::string(kRest) + kStart)).source(); }),
+      HasSubstr("source: required key is missing"));
+}
+
 TEST_F(SessionTest, RefusesAWrongSceneWhenItIsOpened) {
   EXPECT_THAT(message_of<ConfigError>([&] { Session(scene(std::string(kRest) + "sead: 1\n")); }),
               HasSubstr("seed"));
