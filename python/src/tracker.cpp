@@ -6,13 +6,9 @@
 
 namespace hypotrack::python {
 
-NamedSolution PythonTracker::track(std::vector<View> views, double time, std::optional<int> index) {
+NamedSolution PythonTracker::track(Frame frame) {
   const Busy busy(busy_, "tracker");
-  Frame frame;
-  frame.views = std::move(views);
-  frame.time = time;
-  frame.index = index.value_or(next_);
-  if (frame.views.empty()) frame.problem = "there are no pictures";
+  if (frame.index < 0) frame.index = next_;
   Interrupts interrupts;
   NamedSolution out{{}, scene_};
   try {
@@ -29,6 +25,19 @@ NamedSolution PythonTracker::track(std::vector<View> views, double time, std::op
   return out;
 }
 
+namespace {
+
+Frame frame_of(std::vector<View> views, double time, std::optional<int> index) {
+  Frame frame;
+  frame.views = std::move(views);
+  frame.time = time;
+  frame.index = index.value_or(-1);
+  if (frame.views.empty()) frame.problem = "there are no pictures";
+  return frame;
+}
+
+}  // namespace
+
 void add_tracker(py::module_& module) {
   py::class_<PythonTracker>(
       module, "Tracker",
@@ -39,7 +48,8 @@ void add_tracker(py::module_& module) {
           "track",
           [](PythonTracker& self, const py::array& left, const py::array& right, double time,
              std::optional<int> index) {
-            return self.track({view_of(left, "left"), view_of(right, "right")}, time, index);
+            return self.track(
+                frame_of({view_of(left, "left"), view_of(right, "right")}, time, index));
           },
           py::arg("left"), py::arg("right"), py::arg("time"), py::kw_only(),
           py::arg("index") = py::none(),
@@ -50,11 +60,14 @@ void add_tracker(py::module_& module) {
       .def(
           "track",
           [](PythonTracker& self, const py::object& views, double time, std::optional<int> index) {
-            return self.track(views_of(views), time, index);
+            return self.track(frame_of(views_of(views), time, index));
           },
           py::arg("views"), py::arg("time"), py::kw_only(), py::arg("index") = py::none(),
           "Finds the scene in a list of pictures or Views, one per camera. None or an empty list: "
           "the frame is missing.")
+      .def(
+          "track", [](PythonTracker& self, const Frame& frame) { return self.track(frame); },
+          py::arg("frame"), "Finds the scene in a Frame, such as one of a Source.")
       .def_property_readonly("scene", &PythonTracker::scene)
       .def_property_readonly(
           "cameras", [](const PythonTracker& self) { return self.tracker().cameras(); },

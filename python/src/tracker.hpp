@@ -21,7 +21,8 @@ class PythonTracker {
   PythonTracker(const PythonTracker&) = delete;
   PythonTracker& operator=(const PythonTracker&) = delete;
 
-  NamedSolution track(std::vector<View> views, double time, std::optional<int> index);
+  /// Tracks a frame; an index below 0 is the next one.
+  NamedSolution track(Frame frame);
 
   const std::shared_ptr<Scene>& scene() const { return scene_; }
   const Tracker& tracker() const { return *tracker_; }

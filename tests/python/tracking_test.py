@@ -51,6 +51,17 @@ class Tracking(unittest.TestCase):
         self.assertEqual(self.tracker.track(None, 0.2).status, hypotrack.Status.missing)
         self.assertEqual(self.tracker.track(self.rig.pictures(3), 0.3).frame, 3)
 
+    def test_takes_the_frames_of_a_source(self):
+        session = box.session(box.scene(source=box.synthetic(), init={"from": "truth"}))
+        source = session.source()
+        self.assertEqual((source.frame_rate, source.frame_count), (30, 3))
+        tracker = session.tracker(source.cameras)
+        solutions = [tracker.track(frame) for frame in source]
+        self.assertEqual([s.frame for s in solutions], [0, 1, 2])
+        states = []
+        session.run(on_frame=lambda f, s, e: states.append(s.state))
+        np.testing.assert_array_equal([s.state for s in solutions], states)
+
     def test_sigmas_are_there_if_they_are_wanted(self):
         session = box.session(set={"tracker.uncertainty.enabled": True, "budget.evaluations": 4000})
         solution = session.tracker(self.rig.cameras).track(*self.rig.pictures(0), 0.0)
