@@ -2,10 +2,23 @@
 
 namespace hypotrack::python {
 
+namespace {
+
+/// Returns whether Python ends: threads but the main one do not get the GIL any more.
+bool is_ending() {
+#if PY_VERSION_HEX >= 0x030D0000
+  return Py_IsFinalizing() != 0;
+#else
+  return _Py_IsFinalizing() != 0;
+#endif
+}
+
+}  // namespace
+
 Held::~Held() {
   if (!object_) return;
-  if (!Py_IsInitialized()) {
-    object_.release();  // Python is gone, and the object with it
+  if (!Py_IsInitialized() || (is_ending() && !PyGILState_Check())) {
+    object_.release();
     return;
   }
   const py::gil_scoped_acquire acquire;

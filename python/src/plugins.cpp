@@ -143,10 +143,12 @@ void add_plugins(py::module_& module) {
            "Tells what is good to know, once per text.")
       .def("warning", &PluginLog::warning, py::arg("text"),
            py::call_guard<py::gil_scoped_release>(), "Tells what probably makes results worse.");
-  module.def("register", &register_plugin, py::arg("kind"), py::arg("name"), py::arg("cls"),
-             "Makes a class the plugin `type: name` of scenes that are opened afterwards in this "
-             "process. `kind` is optimizer, objective, source or output. The parameters of its "
-             "constructor are those of the plugin. Objects get `log` and `scene` before it runs.");
+  module.def(
+      "register", &register_plugin, py::arg("kind"), py::arg("name"), py::arg("cls"),
+      "Makes a class the plugin `type: name` of scenes that are opened afterwards in this "
+      "process. `kind` is optimizer, objective, source or output. The parameters of its "
+      "constructor are those of the plugin. Objects get `log` and `scene` before it runs. A source "
+      "gives new arrays with every frame, since frames are read ahead.");
 }
 
 }  // namespace hypotrack::python

@@ -14,6 +14,12 @@ CostFunction& SearchCall::cost() const {
   return *cost_;
 }
 
+void SearchCall::end() {
+  while (busy_.exchange(true)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  cost_ = nullptr;
+  busy_ = false;
+}
+
 void SearchCall::spend(std::int64_t evaluations) const {
   // The first evaluation, of the start, always takes place.
   if (evaluations > left() || (best_.result().evaluations > 0 && deadline_.passed()))

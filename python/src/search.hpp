@@ -39,8 +39,8 @@ class SearchCall {
   const Budget& budget() const { return budget_; }
   /// Returns what the cost threw; null: nothing.
   const std::exception_ptr& failure() const { return failure_; }
-  /// Ends the search: the cost is about to go.
-  void end() { cost_ = nullptr; }
+  /// Ends the search: the cost is about to go. Waits for a thread of Python that evaluates still.
+  void end();
 
  private:
   CostFunction& cost() const;

@@ -37,8 +37,10 @@ MeshArrays mesh_of(const std::string& name, const py::handle& object) {
   const auto corners = py::cast<py::array>(parts[1]);
   if (corners.dtype().kind() != 'i' && corners.dtype().kind() != 'u')
     fail("triangles: expected an array of integers");
-  mesh.triangles =
-      matrix_of_points(py::cast<Doubles>(parts[1]), (name + ": triangles").c_str()).cast<int>();
+  const Eigen::Matrix3Xd indices =
+      matrix_of_points(py::cast<Doubles>(parts[1]), (name + ": triangles").c_str());
+  if ((indices.array().abs() > 1e9).any()) fail("triangles: an index is out of range");
+  mesh.triangles = indices.cast<int>();
   if (parts.size() == 2 || parts[2].is_none()) return mesh;
   const auto colors = py::cast<py::array>(parts[2]);
   if (colors.dtype().kind() != 'u' || colors.itemsize() != 1)
@@ -67,6 +69,7 @@ class Callbacks final : public RunWatcher {
       if (answer.is(py::bool_(false))) stopped_ = true;
     });
   }
+  bool stopped() const { return stopped_; }
   /// Throws what a function threw, if it did. The caller has the GIL.
   void rethrow() const {
     if (error_) throw py::error_already_set(*error_);
@@ -150,6 +153,7 @@ class PythonSession {
     }
     callbacks.rethrow();
     interrupts.rethrow();
+    if (!complete && !callbacks.stopped()) throw Stopped();  // Ctrl-C within a plugin
     return complete;
   }
 
@@ -159,12 +163,14 @@ class PythonSession {
   static std::vector<std::string> overrides_of(const py::object& set) {
     if (!py::isinstance<py::dict>(set)) return py::cast<std::vector<std::string>>(set);
     std::vector<std::string> overrides;
-    const py::object dumps = py::module_::import("json").attr("dumps");
+    const py::object json = py::module_::import("json");
+    const auto dumps = [&](const py::object& value) {
+      return py::cast<std::string>(json.attr("dumps")(value, py::arg("ensure_ascii") = false));
+    };
     for (const auto& [key, value] : py::cast<py::dict>(set)) {
       const auto path = py::cast<std::string>(key);
       const ConfigNode node = value_of(value, path).document(path);  // refuses what is no value
-      overrides.push_back(
-          fmt::format("{}={}", path, py::cast<std::string>(dumps(object_of(node)))));
+      overrides.push_back(fmt::format("{}={}", path, dumps(object_of(node))));
     }
     return overrides;
   }

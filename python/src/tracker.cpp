@@ -6,15 +6,56 @@
 
 namespace hypotrack::python {
 
+PythonTracker::PythonTracker(Tracker tracker)
+    : tracker_(std::make_unique<Tracker>(std::move(tracker))),
+      scene_(std::make_shared<Scene>(tracker_->scene())) {
+  all().insert(this);
+}
+
+PythonTracker::~PythonTracker() {
+  all().erase(this);
+  end_without_gil(tracker_);
+}
+
+std::set<PythonTracker*>& PythonTracker::all() {
+  static auto* const kAll = new std::set<PythonTracker*>;  // outlives Python
+  return *kAll;
+}
+
+void PythonTracker::end_all() {
+  const std::set<PythonTracker*> trackers = all();
+  for (PythonTracker* tracker : trackers) {
+    if (!all().contains(tracker) || tracker->busy_.exchange(true)) continue;
+    end_without_gil(tracker->tracker_);
+    tracker->busy_ = false;
+  }
+}
+
+Tracker& PythonTracker::tracker() const {
+  if (!tracker_) throw Error("this tracker has ended with the program");
+  return *tracker_;
+}
+
+std::vector<Camera> PythonTracker::cameras() {
+  const Busy busy(busy_, "tracker");
+  return tracker().cameras();
+}
+
+std::string PythonTracker::backend() {
+  const Busy busy(busy_, "tracker");
+  return tracker().backend();
+}
+
 NamedSolution PythonTracker::track(Frame frame) {
   const Busy busy(busy_, "tracker");
+  Tracker& tracker = this->tracker();
   if (frame.index < 0) frame.index = next_;
   Interrupts interrupts;
   NamedSolution out{{}, scene_};
   try {
     without_gil([&] {
-      out.solution = tracker_->track(frame, [&] { return interrupts(); });
-      out.notes = tracker_->take_notes();
+      out.solution = tracker.track(frame, [&] { return interrupts(); });
+      out.notes = tracker.take_notes();
     });
   } catch (const Stopped&) {
     next_ = frame.index + 1;
@@ -69,12 +110,12 @@ void add_tracker(py::module_& module) {
           "track", [](PythonTracker& self, const Frame& frame) { return self.track(frame); },
           py::arg("frame"), "Finds the scene in a Frame, such as one of a Source.")
       .def_property_readonly("scene", &PythonTracker::scene)
-      .def_property_readonly(
-          "cameras", [](const PythonTracker& self) { return self.tracker().cameras(); },
-          "The cameras, with the sizes of their pictures.")
-      .def_property_readonly(
-          "backend", [](const PythonTracker& self) { return self.tracker().backend(); },
-          "What evaluates hypotheses: the CPU and its threads, or the GPU.");
+      .def_property_readonly("cameras", &PythonTracker::cameras,
+                             "The cameras, with the sizes of their pictures.")
+      .def_property_readonly("backend", &PythonTracker::backend,
+                             "What evaluates hypotheses: the CPU and its threads, or the GPU.");
+  // Threads of a tracker may call Python, which is too late once Python ends.
+  py::module_::import("atexit").attr("register")(py::cpp_function(&PythonTracker::end_all));
 }
 
 }  // namespace hypotrack::python

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "common.hpp"
@@ -14,10 +16,9 @@ namespace hypotrack::python {
 /// A tracker that Python owns.
 class PythonTracker {
  public:
-  explicit PythonTracker(Tracker tracker)
-      : tracker_(std::make_unique<Tracker>(std::move(tracker))),
-        scene_(std::make_shared<Scene>(tracker_->scene())) {}
-  ~PythonTracker() { end_without_gil(tracker_); }
+  /// The caller has the GIL.
+  explicit PythonTracker(Tracker tracker);
+  ~PythonTracker();
   PythonTracker(const PythonTracker&) = delete;
   PythonTracker& operator=(const PythonTracker&) = delete;
 
@@ -25,9 +26,17 @@ class PythonTracker {
   NamedSolution track(Frame frame);
 
   const std::shared_ptr<Scene>& scene() const { return scene_; }
-  const Tracker& tracker() const { return *tracker_; }
+  std::vector<Camera> cameras();
+  std::string backend();
+
+  /// Ends the trackers that are not at work, while their threads can still call Python. The caller
+  /// has the GIL.
+  static void end_all();
 
  private:
+  static std::set<PythonTracker*>& all();
+  Tracker& tracker() const;
+
   std::unique_ptr<Tracker> tracker_;
   std::shared_ptr<Scene> scene_;
   std::atomic<bool> busy_ = false;

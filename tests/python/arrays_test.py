@@ -95,6 +95,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual((color.shape, depth.shape, label.shape),
                          ((240, 320, 3), (240, 320), (240, 320)))
         self.assertTrue(((depth > 0) == (label == 1)).all())
+        before = color.copy()
+        self.rig.renderer.render(self.rig.state(9), camera)
+        np.testing.assert_array_equal(color, before, "what was drawn before stays")
         self.assertAlmostEqual(np.median(depth[depth > 0]), 0.38, 1)
         row, column = np.argwhere(depth > 0).mean(axis=0)
         self.assertLess(np.hypot(*(camera.project([0, 0, 0.4]) - [column, row])), 5)

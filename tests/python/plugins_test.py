@@ -316,7 +316,8 @@ class Objectives(Plugins):
         kept = []
 
         def costs(self, hypotheses):
-            kept.append((hypotheses, hypotheses.inverse_depths[0].sum(), self.observation))
+            kept.append((hypotheses, hypotheses.inverse_depths[0].sum(), self.observation,
+                         self.observation.views[0].color.copy()))
             return hypotheses.states[:, 0]
 
         def prepare(self, observation):
@@ -324,8 +325,10 @@ class Objectives(Plugins):
 
         registered("objective", prepare=prepare, costs=costs)
         self.track(box.scene(objective={"type": "py_test"}, judge="none"), 3)
-        for hypotheses, total, observation in kept[:50]:
+        self.assertGreater(len({o.frame for _, _, o, _ in kept}), 1)
+        for hypotheses, total, observation, color in kept[::7]:
             self.assertEqual(hypotheses.inverse_depths[0].sum(), total)
+            np.testing.assert_array_equal(observation.views[0].color, color)
             self.assertEqual(observation.views[0].color.shape, (64, 64, 3))
             self.assertGreater(observation.views[1].valid.sum(), 0)
             self.assertAlmostEqual(observation.views[0].matrix[2, 2], 1)

@@ -149,6 +149,37 @@ except KeyboardInterrupt:
                               timeout=120, cwd=os.path.dirname(__file__))
         self.assertEqual(done.stdout, "interrupted\n", done.stderr)
 
+    def test_ctrl_c_in_a_plugin_ends_a_run(self):
+        program = """
+import box, hypotrack, os, plugins_test, signal, time
+def minimize(self, cost, region, budget, seed):
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(60)
+plugins_test.registered("optimizer", minimize=minimize)
+try:
+    box.session(box.scene(optimizer={"type": "py_test"}, source=box.synthetic())).run()
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                              timeout=120, cwd=os.path.dirname(__file__))
+        self.assertEqual(done.stdout, "interrupted\n", done.stderr)
+
+    def test_the_interpreter_ends_while_a_search_in_the_background_calls_python(self):
+        program = """
+import box, hypotrack, plugins_test, time
+rig = box.Rig()
+tracker = box.session(box.scene(optimizer={"type": "py_sampler"}, init={"from": "global_search"},
+                                tracker={"recovery": {"run": "background"}})).tracker(rig.cameras)
+for i in range(2):
+    tracker.track(*rig.pictures(i), i / 30)
+print("done")
+"""
+        for _ in range(3):
+            done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                                  timeout=120, cwd=os.path.dirname(__file__))
+            self.assertEqual((done.stdout, done.returncode), ("done\n", 0), done.stderr)
+
     def test_the_interpreter_ends_with_trackers_alive(self):
         program = """
 import box, hypotrack, plugins_test
