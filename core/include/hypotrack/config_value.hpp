@@ -17,8 +17,8 @@ namespace hypotrack {
 /// A value of a document that a program makes: a map, list, text, number, bool or null.
 ///
 ///   const auto scene = ConfigValue::map({
-///       {"models", ConfigValue::list({ConfigValue::map({{"type", "hand"}})})},
-///       {"tracker", "@trackers/recommended"},
+///       {"models", ConfigValue::list({ConfigValue::map({{"type", "rigid_box"}})})},
+///       {"tracker", "@trackers/rigid"},
 ///   });
 ///   hypotrack::Session session(scene.document("my scene"));
 class HYPOTRACK_API ConfigValue {

@@ -114,8 +114,7 @@ TEST(ConfigValue, TakesOverridesReferencesAndTrackers) {
 
 TEST(ConfigValue, ReferencesToNothingNameTheKeyPath) {
   const auto error = [](const Value& value) {
-    return message_of<ConfigError>(
-        [&] { (void)value.document("my scene", "/folder").as_scene(); });
+    return message_of<ConfigError>([&] { (void)value.document("my scene", "/folder").as_scene(); });
   };
   EXPECT_THAT(error(Value::map({{"tracker", "@trackers/recomended"}})),
               StartsWith("my scene: tracker: there is no tracker '@trackers/recomended'"));
@@ -124,7 +123,9 @@ TEST(ConfigValue, ReferencesToNothingNameTheKeyPath) {
 }
 
 TEST(ConfigValue, RefusesWhatNoDocumentHolds) {
-  EXPECT_THAT(message_of<ConfigError>([] { Value::map({{"a", 1}, {"a", 2}}); }),
+  EXPECT_THAT(message_of<ConfigError>([] {
+                Value::map({{"a", 1}, {"a", 2}});
+              }),
               HasSubstr("has the key 'a' twice"));
   EXPECT_THAT(error_of(Value::map({{"word", "\xff"}})),
               StartsWith("my scene: word: expected UTF-8 text"));
@@ -136,8 +137,9 @@ TEST(ConfigValue, RefusesWhatNoDocumentHolds) {
 }
 
 TEST(ConfigValue, IsWrittenAsYamlThatReadsBackEqual) {
-  const Value value = Value::map(
-      {{"text", "yes"}, {"list", Value::list({1, 0.5, true, Value(), "a: b\n"})}, {"map", Value::map({})}});
+  const Value value = Value::map({{"text", "yes"},
+                                  {"list", Value::list({1, 0.5, true, Value(), "a: b\n"})},
+                                  {"map", Value::map({})}});
   const std::string text = value.document("my scene").to_yaml();
   EXPECT_EQ(ConfigNode::parse(text, "read back").to_yaml(), text);
 }

@@ -40,19 +40,18 @@ MeshArrays cuboid() {
 }
 
 Value at(double x, double y, double z) {
-  return Value::map(
-      {{"box", Value::map({{"position_mm", Value::list({x, y, z})},
-                           {"rotation_deg", Value::list({20, 30, 0})}})}});
+  return Value::map({{"box", Value::map({{"position_mm", Value::list({x, y, z})},
+                                         {"rotation_deg", Value::list({20, 30, 0})}})}});
 }
 
 Value source() {
   return Value::map(
       {{"type", "synthetic"},
        {"frames", 3},
-       {"cameras", Value::map({{"width", 320}, {"height", 240}, {"focal_px", 300}, {"baseline_mm", 100}})},
-       {"keyframes",
-        Value::list({Value::map({{"frame", 0}, {"pose", at(0, 0, 400)}}),
-                     Value::map({{"frame", 2}, {"pose", at(10, 5, 410)}})})}});
+       {"cameras",
+        Value::map({{"width", 320}, {"height", 240}, {"focal_px", 300}, {"baseline_mm", 100}})},
+       {"keyframes", Value::list({Value::map({{"frame", 0}, {"pose", at(0, 0, 400)}}),
+                                  Value::map({{"frame", 2}, {"pose", at(10, 5, 410)}})})}});
 }
 
 Value::Map scene_of(const Value& model) {
@@ -65,13 +64,12 @@ Value::Map scene_of(const Value& model) {
 }
 
 Value box() {
-  return Value::map({{"name", "box"}, {"type", "rigid_box"}, {"size_mm", Value::list({60, 90, 40})}});
+  return Value::map(
+      {{"name", "box"}, {"type", "rigid_box"}, {"size_mm", Value::list({60, 90, 40})}});
 }
 Value mesh_box() {
-  return Value::map({{"name", "box"},
-                     {"type", "rigid_mesh"},
-                     {"mesh", "attached:cuboid"},
-                     {"units", "mm"}});
+  return Value::map(
+      {{"name", "box"}, {"type", "rigid_mesh"}, {"mesh", "attached:cuboid"}, {"units", "mm"}});
 }
 
 struct BuiltRun : RunWatcher {
@@ -157,7 +155,8 @@ TEST_F(BuiltScene, AMeshInMemoryIsTheModelOfTheSameFile) {
   const MeshArrays mesh = cuboid();
   std::ofstream file(folder() / "cuboid.obj");
   for (const auto& v : mesh.vertices.colwise()) file << "v " << v.transpose() << "\n";
-  for (const auto& t : mesh.triangles.colwise()) file << "f " << (t.array() + 1).transpose() << "\n";
+  for (const auto& t : mesh.triangles.colwise())
+    file << "f " << (t.array() + 1).transpose() << "\n";
   file.close();
   Value::Map scene = scene_of(mesh_box());
   MeshArrays plain = mesh;
@@ -241,8 +240,9 @@ TEST_F(BuiltScene, UsesAPluginOfTheProgram) {
   EXPECT_EQ(states.size(), 3U);
   const std::string protocol = text_of(folder() / "out" / "run.yaml");
   EXPECT_THAT(protocol, AllOf(HasSubstr("holds the optimizer 'sampler',"), HasSubstr("count: 64")));
-  EXPECT_THAT(error(with(scene, "optimizer", Value::map({{"type", "sampler"}, {"count", 0}})), options),
-              StartsWith("my scene: optimizer.count: 0 is out of range"));
+  EXPECT_THAT(
+      error(with(scene, "optimizer", Value::map({{"type", "sampler"}, {"count", 0}})), options),
+      StartsWith("my scene: optimizer.count: 0 is out of range"));
   EXPECT_THAT(error(with(scene, "optimizer", Value::map({{"type", "simpler"}})), options),
               HasSubstr("did you mean 'sampler'?"));
 }

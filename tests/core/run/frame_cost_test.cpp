@@ -39,7 +39,8 @@ class FrameCostTest : public ::testing::Test {
     while (auto frame = opened.source->next()) frames_.push_back(*std::move(frame));
   }
   FrameCost cost(std::vector<std::string> set = {}) {
-    return Session(ConfigNode::parse(kTwoTerms, "scene"), {.set = std::move(set)}).frame_cost(cameras_);
+    return Session(ConfigNode::parse(kTwoTerms, "scene"), {.set = std::move(set)})
+        .frame_cost(cameras_);
   }
   const Eigen::VectorXd& truth(std::size_t i) const { return frames_[i].truth->state; }
   /// The true state of the first frame and states beside it.
