@@ -127,6 +127,7 @@ void add_renderer(py::module_& module);
 void add_metrics(py::module_& module);
 void add_search(py::module_& module);
 void add_objective(py::module_& module);
+void add_judge(py::module_& module);
 void add_plugins(py::module_& module);
 
 }  // namespace hypotrack::python

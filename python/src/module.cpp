@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module) {
   add_metrics(module);
   add_search(module);
   add_objective(module);
+  add_judge(module);
   add_plugins(module);
   add_tracker(module);
   add_source(module);

@@ -61,21 +61,40 @@ template <class T>
 ProgramPlugin plugin_of(const std::string& name, const py::object& type,
                         std::unique_ptr<T> (*wrap)(std::shared_ptr<Held>)) {
   const auto held = std::make_shared<Held>(type);
-  constexpr bool kHasScene = !std::is_same_v<T, Model>;
   return program_plugin<T>(name, [held, wrap](PluginContext& context) {
-    return wrap(make_object(held->get(), context, kHasScene));
+    return wrap(make_object(held->get(), context));
   });
 }
+
+ProgramPlugin judge_plugin(const std::string& name, const py::object& type) {
+  const auto held = std::make_shared<Held>(type);
+  return program_plugin<Judge>(name, [held](PluginContext& context) {
+    JudgeThresholds thresholds;
+    auto object = make_object(held->get(), context, &thresholds);
+    return python_judge(std::move(object), thresholds);
+  });
+}
+
+/// The parameters of a class and, for a judge, its thresholds.
+struct AllParams {
+  PythonParams own = {};
+  JudgeThresholds* thresholds = nullptr;
+  void visit(ParamVisitor& v) {
+    if (thresholds) thresholds->visit(v);
+    own.visit(v);
+  }
+};
 
 ProgramPlugin make_plugin(const std::string& kind, const std::string& name,
                           const py::object& type) {
   if (kind == kPluginKind<Optimizer>) return plugin_of(name, type, &python_optimizer);
   if (kind == kPluginKind<Objective>) return plugin_of(name, type, &python_objective);
+  if (kind == kPluginKind<Judge>) return judge_plugin(name, type);
   if (kind == kPluginKind<Source>) return plugin_of(name, type, &python_source);
   if (kind == kPluginKind<Output>) return plugin_of(name, type, &python_output);
   throw PluginError(fmt::format(
-      "there are no plugins of the kind '{}' in Python; expected optimizer, objective, source or "
-      "output",
+      "there are no plugins of the kind '{}' in Python; expected optimizer, objective, judge, "
+      "source or output",
       kind));
 }
 
@@ -121,15 +140,17 @@ PythonParams params_of(const py::object& type) {
   return params;
 }
 
-std::shared_ptr<Held> make_object(const py::object& type, PluginContext& context, bool has_scene) {
-  const PythonParams params = context.read(in_python([&] { return params_of(type); }));
+std::shared_ptr<Held> make_object(const py::object& type, PluginContext& context,
+                                  JudgeThresholds* thresholds) {
+  AllParams all{in_python([&] { return params_of(type); }), thresholds};
+  const PythonParams params = context.read(std::move(all)).own;
   return in_python([&] {
     py::dict arguments;
     for (const PythonParams::Parameter& p : params.all)
       arguments[py::str(p.name)] = to_python(p.value);
     const py::object object = type.attr("__new__")(type);
     object.attr("log") = context.log();
-    if (has_scene) object.attr("scene") = std::make_shared<Scene>(context.scene());
+    object.attr("scene") = std::make_shared<Scene>(context.scene());
     object.attr("__init__")(**arguments);
     return std::make_shared<Held>(object);
   });
@@ -146,7 +167,7 @@ void add_plugins(py::module_& module) {
   module.def(
       "register", &register_plugin, py::arg("kind"), py::arg("name"), py::arg("cls"),
       "Makes a class the plugin `type: name` of scenes that are opened afterwards in this "
-      "process. `kind` is optimizer, objective, source or output. The parameters of its "
+      "process. `kind` is optimizer, objective, judge, source or output. The parameters of its "
       "constructor are those of the plugin. Objects get `log` and `scene` before it runs. A source "
       "gives new arrays with every frame, since frames are read ahead.");
 }

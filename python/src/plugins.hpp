@@ -29,8 +29,10 @@ struct PythonParams {
 PythonParams params_of(const py::object& type);
 
 /// Makes an object of a class for a plugin: reads its parameters from the context, and gives it
-/// `log` and, where there is a scene, `scene`. The caller has no GIL.
-std::shared_ptr<Held> make_object(const py::object& type, PluginContext& context, bool has_scene);
+/// `log` and `scene`. The caller has no GIL.
+/// `thresholds`, if given, are parameters, too.
+std::shared_ptr<Held> make_object(const py::object& type, PluginContext& context,
+                                  JudgeThresholds* thresholds = nullptr);
 
 /// Returns the plugins that were registered in this process.
 std::vector<ProgramPlugin> registered_plugins();
@@ -38,6 +40,8 @@ std::vector<ProgramPlugin> registered_plugins();
 // Each makes a plugin of an object in Python.
 std::unique_ptr<Optimizer> python_optimizer(std::shared_ptr<Held> object);
 std::unique_ptr<Objective> python_objective(std::shared_ptr<Held> object);
+std::unique_ptr<Judge> python_judge(std::shared_ptr<Held> object,
+                                    const JudgeThresholds& thresholds);
 std::unique_ptr<Source> python_source(std::shared_ptr<Held> object);
 std::unique_ptr<Output> python_output(std::shared_ptr<Held> object);
 

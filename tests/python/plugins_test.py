@@ -228,7 +228,7 @@ class Registering(unittest.TestCase):
             hypotrack.register(kind, name, cls)
 
     def test_refuses_what_no_scene_could_use(self):
-        self.refuse("optimiser", "x", Sampler, "expected optimizer, objective, source or output")
+        self.refuse("optimiser", "x", Sampler, "expected optimizer, objective, judge, source or output")
         self.refuse("optimizer", "Not-a-name", Sampler, "small letters")
         self.refuse("optimizer", "x", 3, "expected a class")
 
@@ -332,6 +332,44 @@ class Objectives(Plugins):
             self.assertEqual(observation.views[0].color.shape, (64, 64, 3))
             self.assertGreater(observation.views[1].valid.sum(), 0)
             self.assertAlmostEqual(observation.views[0].matrix[2, 2], 1)
+
+
+class Judges(Plugins):
+    def test_say_whether_a_pose_is_right(self):
+        seen = []
+
+        def log_odds(self, measures):
+            seen.append((measures.values["correlation"], measures.model, len(measures.usual)))
+            return self.answer
+
+        for answer, status in [(5.0, "tracked"), (-5.0, "lost")]:
+            registered("judge", log_odds=log_odds, answer=answer)
+            solution = self.track(box.scene(judge="py_test"), 1)[0]
+            self.assertEqual(solution.status.name, status)
+            self.assertAlmostEqual(solution.probabilities["box"], 1 / (1 + np.exp(-answer)))
+        self.assertEqual(seen[0][1:], (0, 18))
+
+    def test_have_thresholds_and_parameters(self):
+        class Fixed:
+            def __init__(self, odds: float = 0.5):
+                self.odds = odds
+
+            def log_odds(self, measures):
+                return self.odds
+
+        hypotrack.register("judge", "py_test", Fixed)
+        for judge, status in [({}, "tracked"), ({"tracked_above": 0.9, "surely_above": 0.9,
+                                                 "first_above": 0.9, "confirmed_above": 0.9},
+                                                "uncertain"), ({"odds": -9}, "lost")]:
+            scene = box.scene(judge={"type": "py_test", **judge})
+            self.assertEqual(self.track(scene, 1)[0].status.name, status, judge)
+
+    def test_that_raise_or_have_no_answer_are_named(self):
+        for answer, message in [(lambda: 1 / 0, "(?s)judge 'py_test'.*ZeroDivisionError"),
+                                (lambda: float("nan"), "judge 'py_test'"),
+                                (lambda: "likely", "judge 'py_test'")]:
+            registered("judge", log_odds=lambda self, measures, answer=answer: answer())
+            self.assertRegex(self.error(box.scene(judge="py_test")), message)
 
 
 class SourcesAndOutputs(Plugins):
