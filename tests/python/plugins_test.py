@@ -228,7 +228,7 @@ class Registering(unittest.TestCase):
             hypotrack.register(kind, name, cls)
 
     def test_refuses_what_no_scene_could_use(self):
-        self.refuse("optimiser", "x", Sampler, "expected optimizer, objective, judge, source or output")
+        self.refuse("optimiser", "x", Sampler, "expected optimizer, objective, start, judge")
         self.refuse("optimizer", "Not-a-name", Sampler, "small letters")
         self.refuse("optimizer", "x", 3, "expected a class")
 
@@ -370,6 +370,43 @@ class Judges(Plugins):
                                 (lambda: "likely", "judge 'py_test'")]:
             registered("judge", log_odds=lambda self, measures, answer=answer: answer())
             self.assertRegex(self.error(box.scene(judge="py_test")), message)
+
+
+class Starts(Plugins):
+    def track_from(self, **members):
+        registered("start", **members)
+        return self.track(box.scene(init={"from": {"type": "py_test"}}), 1)[0]
+
+    def test_give_a_state(self):
+        truth = self.rig.state(0)
+        frames = []
+
+        def state(self, frame, cameras):
+            frames.append((frame, len(cameras)))
+            return truth
+
+        self.assertEqual(self.track_from(state=state).status.name, "tracked")
+        self.assertIsNone(frames[0][0])
+        late = self.track_from(state=lambda self, frame, cameras: None if frame is None else truth)
+        self.assertEqual(late.status.name, "tracked")
+
+    def test_look_for_models(self):
+        seen = []
+
+        def find(self, frame, cameras, model):
+            seen.append((frame.views[0].color.shape, [c.size for c in cameras], model))
+            yield self.scene.pose(box.pose(0))[self.scene.slice(model)]
+
+        self.assertEqual(self.track_from(find=find).status.name, "tracked")
+        self.assertEqual(seen[0], ((240, 320, 3), [(320, 240)] * 2, "box"))
+
+    def test_that_raise_or_propose_what_is_no_pose_are_named(self):
+        for find, message in [(lambda *_: 1 / 0, "(?s)start 'py_test'.*ZeroDivisionError"),
+                              (lambda *_: [np.zeros(3)], "start 'py_test'"),
+                              (lambda *_: 3, "start 'py_test'")]:
+            registered("start", find=find)
+            self.assertRegex(self.error(box.scene(init={"from": {"type": "py_test"}}),
+                                        hypotrack.Error), message)
 
 
 class SourcesAndOutputs(Plugins):

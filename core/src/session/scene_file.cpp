@@ -63,7 +63,7 @@ LoadedScene load_scene(const SceneInput& input, std::span<const std::string> ove
   if (scene.root.get("scenes").defined() && !scene.root.get("models").defined())
     throw ConfigError(fmt::format(
         "{}: this is a study, no scene: it has `scenes`; `hypotrack compare` makes its runs",
-        scene.root.where()));
+        scene.root.where_key("scenes")));
   refuse_old_keys(scene.root);
   scene.file = ParamReader(scene.root).read<SceneFile>();
   if (scene.file.tracker.defined())

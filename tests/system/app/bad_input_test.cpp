@@ -33,7 +33,7 @@ TEST_F(BadInputTest, SceneThatIsNoMap) {
 
 TEST_F(BadInputTest, AStudyIsNoScene) {
   expect_refused("title: T\nscenes: {a: {file: b.yaml}}\n",
-                 {"scene.yaml: this is a study, no scene", "`hypotrack compare`"});
+                 {"scene.yaml:", "this is a study, no scene", "`hypotrack compare`"});
 }
 
 TEST_F(BadInputTest, UnknownKeys) {
