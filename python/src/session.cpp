@@ -109,6 +109,9 @@ class PythonSession {
       const ConfigNode document = value_of(scene).document(name, directory);
       session_ = without_gil([&] { return std::make_unique<Session>(document, options); });
     } else {
+      if (!py::isinstance<py::str>(scene) && !py::hasattr(scene, "__fspath__"))
+        throw ConfigError("scene: expected the path of a file, or a dict; found " +
+                          py::cast<std::string>(py::type::of(scene).attr("__name__")));
       const auto file = py::cast<Path>(scene);
       session_ = without_gil([&] { return std::make_unique<Session>(file, options); });
     }
@@ -147,8 +150,9 @@ class PythonSession {
                               .stop_now = [&] { return interrupts(); }},
                              callbacks);
       });
-    } catch (const Error&) {
+    } catch (...) {
       callbacks.rethrow();  // it came first
+      interrupts.rethrow();
       throw;
     }
     callbacks.rethrow();

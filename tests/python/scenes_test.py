@@ -39,6 +39,10 @@ class Scenes(unittest.TestCase):
         self.assertIn("tile.size: expected a dict, list", self.error(box.scene(tile={"size": {1}})))
         self.assertIn("more than 64 bits", self.error(box.scene(seed=1 << 70)))
         self.assertIn("the key 3 is no text", self.error(box.scene(tile={3: 4})))
+        with self.assertRaisesRegex(hypotrack.ConfigError, "path of a file, or a dict; found int"):
+            hypotrack.Session(3)
+        with self.assertRaisesRegex(hypotrack.ConfigError, "cannot be opened"):
+            hypotrack.Session("none.yaml")
         loop = []
         loop.append(loop)
         self.assertIn("nested deeper", self.error(box.scene(tile=loop)))
