@@ -33,8 +33,7 @@ class HYPOTRACK_API OutputContext {
   /// Returns the path at which to write the file of this name, one of Output::file_names(). Others
   /// may read the file while it grows. Throws PluginError for other names.
   virtual std::filesystem::path file(const std::string& name) = 0;
-  /// Returns the run's renderer, made at the first call. Use it in calls of the output. Throws
-  /// DeviceError.
+  /// Returns the run's renderer, made at the first call. Use it in calls of the output.
   virtual Renderer& renderer() = 0;
   /// Returns the names of the columns that the run's outputs add to track.csv.
   virtual std::vector<std::string> columns() const { return {}; }
@@ -64,7 +63,7 @@ class HYPOTRACK_API Output {
   virtual std::vector<std::string> file_names() const = 0;
 
   /// Is called before the first frame. `run` lives until the output is destroyed. Throws
-  /// OutputError or DeviceError.
+  /// OutputError.
   virtual void begin(OutputContext& run) = 0;
 
   /// Returns true to receive how the search of this frame goes. Recording costs time and memory.

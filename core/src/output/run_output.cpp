@@ -14,7 +14,6 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
-#include "output/true_landmarks.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -263,9 +262,6 @@ void RunOutput::add_online(const Frame& frame, const Solution& solution, Outputs
 }
 
 void RunOutput::add(const Frame& frame, const Solution& solution, Outputs which) {
-  if (options_.worst_frames > 0 && !options_.fixed_lag && !drawing_renderer_ &&
-      true_landmarks(*scene_, frame))
-    renderer(false);  // without OpenGL, fail now and not at the end
   for_outputs(which, [&](Output& output) {
     if (!options_.fixed_lag) output.online(frame, solution);
     output.frame(frame, solution);

@@ -40,7 +40,7 @@ class RunOutput {
     std::vector<NamedTermTimes> term_times = {};         ///< for the summary
   };
 
-  /// The scene must outlive the object. Throws as check_outputs(), OutputError or DeviceError, and
+  /// The scene must outlive the object. Throws as check_outputs() or OutputError, and
   /// then leaves nothing behind.
   RunOutput(const Scene& scene, std::vector<Camera> cameras, Options options,
             std::vector<NamedOutput> outputs);

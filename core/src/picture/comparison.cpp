@@ -141,7 +141,8 @@ cv::Mat draw_comparison(Renderer& renderer, const cv::Mat& image, const Camera& 
                         const ScenePose& solution, const ScenePose& truth,
                         const std::string& caption) {
   const auto label_of = [&](const ScenePose& pose) {
-    return pose.state.size() == 0 ? cv::Mat() : renderer.render(pose.state, camera, {}).label;
+    return pose.state.size() == 0 ? cv::Mat()
+                                  : renderer.render(pose.state, camera, {.textured = false}).label;
   };
   const cv::Mat solution_label = label_of(solution), truth_label = label_of(truth);
   const Pixels solution_pixels = pixels_of(solution.landmarks, camera);

@@ -60,15 +60,30 @@ void pick_nearest(const cv::Mat& source, const cv::Mat& map, int scale, cv::Mat&
     const auto* from = map.ptr<cv::Point2f>(y);
     T* to = target.ptr<T>(y);
     for (int x = 0; x < map.cols; ++x) {
-      if (!std::isfinite(from[x].x)) continue;
-      const cv::Point pixel(cvRound(scale * (from[x].x + 0.5F) - 0.5F),
-                            cvRound(scale * (from[x].y + 0.5F) - 0.5F));
-      if (pixel.inside({0, 0, source.cols, source.rows})) to[x] = source.at<T>(pixel);
+      if (const auto pixel = nearest_pixel(from[x], scale, source.size()))
+        to[x] = source.at<T>(*pixel);
     }
   }
 }
 
 }  // namespace
+
+TileCamera finer(TileCamera camera, int scale) {
+  camera.width *= scale;
+  camera.height *= scale;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = scale * (camera.cx + 0.5) - 0.5;
+  camera.cy = scale * (camera.cy + 0.5) - 0.5;
+  return camera;
+}
+
+std::optional<cv::Point> nearest_pixel(const cv::Point2f& at, int scale, const cv::Size& size) {
+  if (!std::isfinite(at.x)) return std::nullopt;
+  const cv::Point pixel(cvRound(scale * (at.x + 0.5F) - 0.5F),
+                        cvRound(scale * (at.y + 0.5F) - 0.5F));
+  return pixel.inside({{}, size}) ? std::optional(pixel) : std::nullopt;
+}
 
 LensRays::LensRays(const Camera& camera) : camera_(camera) {
   if (camera.distortion_model == DistortionModel::none) return;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
@@ -28,7 +29,7 @@ class LensRays {
   /// Returns true if this is the lens of a camera; poses may differ.
   bool fits(const Camera& camera) const;
 
-  /// Returns the view that shows `extent`, a box in the plane z = 1 (SceneDrawer::extent).
+  /// Returns the view that shows `extent`, a box in the plane z = 1 (extent_of).
   LensView view(const Eigen::AlignedBox2d& extent,
                 const Eigen::Isometry3d& camera_from_world) const;
 
@@ -39,6 +40,13 @@ class LensRays {
   Camera camera_;
   cv::Mat rays_;  // 32-bit float x/z y/z for every pixel, NaN where the model cannot be inverted
 };
+
+/// Returns the camera with every pixel split into scale x scale.
+TileCamera finer(TileCamera camera, int scale);
+
+/// Returns the nearest pixel to a position of LensView::map in a picture of a size that is `scale`
+/// times finer than the pinhole's, or nothing outside.
+std::optional<cv::Point> nearest_pixel(const cv::Point2f& at, int scale, const cv::Size& size);
 
 /// Resamples `source` by `view.map`: bilinear for colours, zero outside.
 cv::Mat sample_linear(const cv::Mat& source, const LensView& view);

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "picture/scene_drawer.hpp"
+#include "picture/flat_drawer.hpp"
 
 namespace hypotrack {
 namespace {
@@ -14,7 +14,6 @@ namespace {
 RenderStyle shaded_for(const Camera& camera) {
   RenderStyle style;
   style.textured = false;
-  style.samples = 1;  // outlines cover the edges
   style.ambient = 0.35;
   style.diffuse = 0.85;
   style.specular = 0.15;
@@ -65,10 +64,12 @@ cv::Mat draw_overlay(Renderer& renderer, const Scene& scene, const cv::Mat& imag
   RenderStyle shaded = shaded_for(camera);
   shaded.hidden = style.hidden;
   const RenderedView view = renderer.render(state, camera, shaded, image);
-  cv::Mat result;
-  cv::addWeighted(view.color, style.opacity, image, 1 - style.opacity, 0, result);
+  cv::Mat result = image.clone();
   const cv::Rect roi = cv::boundingRect(view.label);
-  if (!style.contours || roi.empty()) return result;
+  if (roi.empty()) return result;
+  cv::Mat drawn = result(roi);
+  cv::addWeighted(view.color(roi), style.opacity, drawn, 1 - style.opacity, 0, drawn);
+  if (!style.contours) return result;
   const int thickness = std::max(1, cvRound(std::max(camera.width, camera.height) / 900.0));
   const int models = static_cast<int>(scene.items().size());
   draw_rims(view, roi, result);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <deque>
+#include <optional>
 
 #include "hypotrack/error.hpp"
+#include "picture/flat_drawer.hpp"
 #include "picture/lens.hpp"
 #include "picture/scene_drawer.hpp"
 
@@ -33,17 +35,6 @@ void check_arguments(const Scene& scene, const Eigen::VectorXd& state, const Cam
   }
 }
 
-/// Returns the camera with every pixel split into scale x scale.
-TileCamera finer(TileCamera camera, int scale) {
-  camera.width *= scale;
-  camera.height *= scale;
-  camera.fx *= scale;
-  camera.fy *= scale;
-  camera.cx = scale * (camera.cx + 0.5) - 0.5;
-  camera.cy = scale * (camera.cy + 0.5) - 0.5;
-  return camera;
-}
-
 /// Composites a picture with coverage (premultiplied colour) over another.
 void put_over(const cv::Mat& layer, cv::Mat target) {
   for (int y = 0; y < layer.rows; ++y) {
@@ -63,7 +54,12 @@ void put_over(const cv::Mat& layer, cv::Mat target) {
 }  // namespace
 
 struct Renderer::Impl {
-  explicit Impl(const Scene& s) : scene(s), drawer(s) {}
+  explicit Impl(const Scene& s) : scene(s), flat(s) {}
+
+  SceneDrawer& opengl() {
+    if (!drawer) drawer.emplace(scene);
+    return *drawer;
+  }
 
   const LensRays& lens_of(const Camera& camera) {
     for (const LensRays& lens : lenses) {
@@ -74,7 +70,8 @@ struct Renderer::Impl {
   }
 
   const Scene& scene;
-  SceneDrawer drawer;
+  FlatDrawer flat;
+  std::optional<SceneDrawer> drawer;  // made when it is first needed
   std::deque<LensRays> lenses;
 };
 
@@ -82,7 +79,7 @@ Renderer::Renderer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 
 Renderer::~Renderer() = default;
 
-std::string Renderer::device() const { return impl_->drawer.device(); }
+std::string Renderer::device() const { return impl_->opengl().device(); }
 
 RenderedView Renderer::render(const Eigen::VectorXd& state, const Camera& camera,
                               const RenderStyle& style, const cv::Mat& background) {
@@ -93,12 +90,18 @@ RenderedView Renderer::render(const Eigen::VectorXd& state, const Camera& camera
   rendered.depth = cv::Mat::zeros(size, CV_32FC1);
   rendered.label = cv::Mat::zeros(size, CV_8UC1);
 
-  impl_->drawer.pose(state, style.hidden);
-  const LensView view = impl_->lens_of(camera).view(impl_->drawer.extent(camera.camera_from_world),
-                                                    camera.camera_from_world);
+  const LensRays& lens = impl_->lens_of(camera);
+  if (!style.textured) {
+    impl_->flat.draw(state, lens, camera.camera_from_world, style, rendered);
+    return rendered;
+  }
+  SceneDrawer& drawer = impl_->opengl();
+  drawer.pose(state, style.hidden);
+  const LensView view =
+      lens.view(drawer.extent(camera.camera_from_world), camera.camera_from_world);
   if (view.roi.empty()) return rendered;
-  cv::Mat color = impl_->drawer.draw_color(view.pinhole, style);
-  Geometry geometry = impl_->drawer.draw_geometry(finer(view.pinhole, view.geometry_scale));
+  cv::Mat color = drawer.draw_color(view.pinhole, style);
+  Geometry geometry = drawer.draw_geometry(finer(view.pinhole, view.geometry_scale));
   if (!view.map.empty()) {
     color = sample_linear(color, view);
     geometry.depth = sample_nearest(geometry.depth, view);

@@ -13,14 +13,13 @@
 #include "gl/gl_objects.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "picture/drawable.hpp"
+#include "picture/extent.hpp"
+#include "picture/flat_drawer.hpp"
 #include "picture/render_targets.hpp"
 #include "picture/shaders.hpp"
 
 namespace hypotrack::internal {
 namespace {
-
-/// Near clipping distance: a projection has no meaning at the camera's centre.
-constexpr double kNearest = 1e-3;
 
 /// Returns the pinhole projection with pixel centres at integers: x covers [x - 0.5, x + 0.5].
 Eigen::Matrix4f clip_from_camera(const TileCamera& c, double near_z, double far_z) {
@@ -58,14 +57,6 @@ GLint uniform(const gl::Program& program, const char* name) {
 void set(GLint location, const Eigen::Vector3f& v) { glUniform3fv(location, 1, v.data()); }
 
 }  // namespace
-
-Eigen::Vector3f flat_color(int model_index) {
-  static const std::array<Eigen::Vector3f, 6> kColors = {
-      Eigen::Vector3f{0.00F, 0.68F, 0.74F}, Eigen::Vector3f{0.98F, 0.55F, 0.15F},
-      Eigen::Vector3f{0.62F, 0.42F, 0.90F}, Eigen::Vector3f{0.45F, 0.75F, 0.25F},
-      Eigen::Vector3f{0.92F, 0.33F, 0.45F}, Eigen::Vector3f{0.95F, 0.80F, 0.25F}};
-  return kColors[static_cast<std::size_t>(model_index) % kColors.size()];
-}
 
 struct SceneDrawer::Impl {
   explicit Impl(const Scene& s) : scene(s) {
@@ -231,24 +222,7 @@ void SceneDrawer::pose(const Eigen::VectorXd& state, const std::vector<bool>& hi
 }
 
 Eigen::AlignedBox2d SceneDrawer::extent(const Eigen::Isometry3d& camera_from_world) const {
-  const Eigen::Isometry3f pose = camera_from_world.cast<float>();
-  Eigen::AlignedBox2d box;
-  bool behind = false;
-  for (const Eigen::Matrix3Xf& vertices : impl_->posed) {
-    const Eigen::Matrix3Xf p = pose * vertices;
-    for (Eigen::Index i = 0; i < p.cols(); ++i) {
-      if (p(2, i) < 2 * kNearest) {
-        behind = true;
-      } else {
-        box.extend((p.col(i).head<2>() / p(2, i)).cast<double>());
-      }
-    }
-  }
-  if (behind && !box.isEmpty()) {  // a triangle through the camera plane may reach anywhere
-    box.min().setConstant(-std::numeric_limits<double>::infinity());
-    box.max().setConstant(std::numeric_limits<double>::infinity());
-  }
-  return box;
+  return extent_of(impl_->posed, camera_from_world);
 }
 
 cv::Mat SceneDrawer::draw_color(const TileCamera& camera, const RenderStyle& style) {

@@ -20,9 +20,6 @@ struct Geometry {
   cv::Mat label;  ///< 8-bit; 0 = nothing, else 1 + index of the model
 };
 
-/// Returns the colour (RGB in [0, 1]) of a model drawn without texture, by its index in the scene.
-Eigen::Vector3f flat_color(int model_index);
-
 /// Owns the OpenGL objects of a scene and draws it for pinhole cameras.
 class SceneDrawer {
  public:
@@ -35,8 +32,7 @@ class SceneDrawer {
   /// Poses the scene for the next draws; they leave out `hidden` models (empty: none).
   void pose(const Eigen::VectorXd& state, const std::vector<bool>& hidden = {});
 
-  /// Returns the bounding box of the posed scene in the plane z = 1 of a camera: (x / z, y / z).
-  /// Empty if nothing is in front of the camera; infinite if part of the scene is at or behind it.
+  /// Returns extent_of() the posed scene.
   Eigen::AlignedBox2d extent(const Eigen::Isometry3d& camera_from_world) const;
 
   /// Draws the posed scene antialiased: 8-bit BGRA with colour times coverage, and coverage (0 ..

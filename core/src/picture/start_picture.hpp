@@ -24,7 +24,7 @@ struct StartToDraw {
 /// Draws the views of a frame side by side, with the models, the tile's outline, some landmarks of
 /// the first view and their epipolar lines in the second. The caption says in addition which share
 /// of each model every view shows. If a model lies behind a camera, the views stay bare and the
-/// caption says so. Throws DeviceError.
+/// caption says so.
 cv::Mat draw_start(const Scene& scene, const std::vector<Camera>& cameras, const TileSettings& tile,
                    const Frame& frame, const StartToDraw& start);
 

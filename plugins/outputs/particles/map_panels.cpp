@@ -63,7 +63,7 @@ cv::Mat panel_picture(const TileView& view) {
 
 std::vector<std::vector<cv::Point>> outlines(Renderer& renderer, const Eigen::VectorXd& state,
                                              const Camera& camera) {
-  const RenderedView drawn = renderer.render(state, camera, {.textured = false, .samples = 1});
+  const RenderedView drawn = renderer.render(state, camera, {.textured = false});
   std::vector<std::vector<cv::Point>> lines;
   cv::findContours(drawn.label > 0, lines, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   return lines;

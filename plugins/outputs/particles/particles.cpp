@@ -38,7 +38,7 @@ class Particles final : public Output {
   std::vector<std::string> file_names() const override { return {"particles_#." + extension()}; }
   void begin(OutputContext& run) override {
     run_ = &run;
-    run.renderer();  // fails before the run if there is no OpenGL
+    run.renderer();  // frames are drawn in another thread
   }
   bool wants_search(const Frame& frame) const override {
     if (params_.every) return frame.index % *params_.every == 0;
