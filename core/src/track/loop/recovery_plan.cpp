@@ -84,7 +84,7 @@ void RecoveryPlan::seek_nearby(const LoopState& loop, const Candidate& best,
     unconfirmed[m] = track.needs_confirmation();
     doubtful[m] = best.probabilities[m] < kDoubt;
   }
-  if (!any(doubtful)) doubts_.halve();
+  if (!any(doubtful)) doubts_.take_back();
   request.sought = any(doubtful) && doubts_.next() ? doubtful : unconfirmed;
 }
 

@@ -16,8 +16,8 @@ class RareTurns {
  public:
   /// Counts a time. Returns whether it is a turn.
   bool next() { return std::has_single_bit(++count_); }
-  /// Makes the next turns half as rare.
-  void halve() { count_ /= 2; }
+  /// Takes a time back, so that turns slowly become less rare.
+  void take_back() { count_ -= count_ > 0; }
   void restart() { count_ = 0; }
 
  private:
