@@ -20,14 +20,15 @@ std::vector<int> starts(int length, int side) {
 std::vector<int> tile_sides(const cv::Size& picture, double smallest_hand) {
   if (smallest_hand <= 0) return {};
   constexpr double kSideOfHand = 6.4;  // the palm detector finds hands of a share of the picture
+  constexpr double kApart = 2.5;       // sides: tiles find hands up to half their side
   constexpr int kSmallest = 64;
+  const double first = std::max(picture.width, picture.height);
   const double last = std::max(smallest_hand * kSideOfHand, double{kSmallest});
+  if (first <= last) return {};
+  const auto count = static_cast<int>(std::ceil(std::log(first / last) / std::log(kApart)));
   std::vector<int> out;
-  double side = std::max(picture.width, picture.height);
-  while (side > last) {
-    side = std::max(side / 2, last);
-    out.push_back(static_cast<int>(std::lround(side)));
-  }
+  for (int i = 1; i <= count; ++i)
+    out.push_back(static_cast<int>(std::lround(first * std::pow(last / first, double(i) / count))));
   return out;
 }
 

@@ -11,6 +11,7 @@ using ::testing::IsEmpty;
 TEST(Tiles, GetSmallerDownToTheSmallestHand) {
   EXPECT_THAT(tile_sides({1280, 720}, 50), ElementsAre(640, 320));
   EXPECT_THAT(tile_sides({640, 480}, 50), ElementsAre(320));
+  EXPECT_THAT(tile_sides({720, 720}, 50), ElementsAre(320)) << "which finds all that 360 would";
   EXPECT_THAT(tile_sides({640, 480}, 0), IsEmpty());
   EXPECT_THAT(tile_sides({640, 480}, 120), IsEmpty());
   EXPECT_THAT(tile_sides({128, 128}, 1), ElementsAre(64)) << "there is no end otherwise";
