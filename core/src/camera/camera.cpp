@@ -178,10 +178,12 @@ DistortionCoefficients distortion_coefficients(const Camera& camera) {
   constexpr std::size_t kTilt = 12;
   DistortionCoefficients k{};
   std::copy_n(camera.distortion.begin(), std::min(camera.distortion.size(), kTilt), k.begin());
-  const auto tau = [&](std::size_t i) {
-    return i < camera.distortion.size() ? camera.distortion[i] : 0;
-  };
-  const Eigen::Matrix3d tilt = tilt_of_sensor(tau(kTilt), tau(kTilt + 1));
+  if (camera.distortion.size() <= kTilt) {  // at once, for whoever projects point by point
+    k[kTilt] = k[kTilt + 3] = k[kTilt + 6] = 1;
+    return k;
+  }
+  const Eigen::Matrix3d tilt =
+      tilt_of_sensor(camera.distortion[kTilt], camera.distortion[kTilt + 1]);
   std::size_t at = kTilt;
   for (const auto& [row, column] :
        {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}, {2, 2}})

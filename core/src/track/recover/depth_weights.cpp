@@ -1,12 +1,13 @@
 #include "track/recover/depth_weights.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/back_project.hpp"
-#include "hypotrack/stop.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -50,9 +51,8 @@ DepthWeights::DepthWeights(const std::vector<Camera>& cameras, std::array<int, 2
                            double nearest, double farthest)
     : cameras_(cameras), reductions_(reductions), nearest_(nearest), farthest_(farthest) {}
 
-void DepthWeights::make_planes(std::size_t view, const cv::Size& size) {
+void DepthWeights::make_planes(std::size_t view, const cv::Size& size, const StopCheck& stop) {
   if (!planes_[view].empty() && planes_[view].front().other.size() == size) return;
-  std::vector<Plane> planes;
   const Camera &own = cameras_[view], &other = cameras_[1 - view];
   const int by = reductions_[view], by_other = reductions_[1 - view];
   const Eigen::Isometry3d world_from_own = own.camera_from_world.inverse();
@@ -62,8 +62,9 @@ void DepthWeights::make_planes(std::size_t view, const cv::Size& size) {
         (static_cast<int>(i) / size.width + 0.5) * by - 0.5;
   const Eigen::Matrix3Xd rays = back_project(own, pixels);
   const double first = 1 / (kBefore * nearest_), last = 1 / (kBeyond * farthest_);
-  for (int k = 0; k < kPlanes; ++k) {
-    check_stop();
+  std::vector<Plane> planes(kPlanes);
+  tbb::parallel_for(0, kPlanes, [&](int k) {
+    stop();
     const double depth = 1 / (first + (last - first) * k / (kPlanes - 1));
     Plane plane{depth >= nearest_ && depth <= farthest_, cv::Mat2f(size)};
     for (Eigen::Index i = 0; i < rays.cols(); ++i) {
@@ -75,21 +76,22 @@ void DepthWeights::make_planes(std::size_t view, const cv::Size& size) {
                            static_cast<float>((there.y() + 0.5) / by_other - 0.5))
                : cv::Vec2f(-1e4f, -1e4f);
     }
-    planes.push_back(std::move(plane));
-  }
+    planes[static_cast<std::size_t>(k)] = std::move(plane);
+  });
   planes_[view] = std::move(planes);
 }
 
 std::array<cv::Mat1f, 2> DepthWeights::weights(const std::array<cv::Mat3b, 2>& pictures) {
   constexpr double kSharpness = 12;  // of the soft maximum over correlations
+  const StopCheck stop;
   std::array<cv::Mat1f, 2> out;
-  for (std::size_t i = 0; i < 2; ++i) {
-    make_planes(i, pictures[i].size());
+  tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
+    make_planes(i, pictures[i].size(), stop);
     const Windows own(gray_of(pictures[i]));
     const cv::Mat1f other = gray_of(pictures[1 - i]);
     cv::Mat1f in_range = cv::Mat1f::zeros(pictures[i].size()), all = in_range.clone();
     for (const Plane& plane : planes_[i]) {
-      check_stop();
+      stop();
       cv::Mat1f warped, likelihood;
       cv::remap(other, warped, plane.other, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
       cv::exp(kSharpness * correlation(own, Windows(warped)), likelihood);
@@ -97,7 +99,7 @@ std::array<cv::Mat1f, 2> DepthWeights::weights(const std::array<cv::Mat3b, 2>& p
       if (plane.in_range) in_range += likelihood;
     }
     out[i] = in_range / all;
-  }
+  });
   return out;
 }
 

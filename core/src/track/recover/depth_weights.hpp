@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "base/stop_scope.hpp"
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack {
@@ -29,7 +30,7 @@ class DepthWeights {
     bool in_range;
     cv::Mat2f other;
   };
-  void make_planes(std::size_t view, const cv::Size& size);
+  void make_planes(std::size_t view, const cv::Size& size, const StopCheck& stop);
 
   std::vector<Camera> cameras_;
   std::array<int, 2> reductions_;
