@@ -16,7 +16,7 @@ namespace {
 constexpr double kPosePadding = 0.5;  // of a hypothesis, around it
 constexpr int kFiner = 2;             // pixels of the fine tile per pixel of the coarse one
 constexpr int kFineIterations = 6;
-constexpr std::size_t kImproved = 20;     // most poses that are improved limb by limb
+constexpr std::size_t kImproved = 16;     // most poses that are improved limb by limb
 constexpr std::size_t kFineImproved = 4;  // most that are improved limb by limb there
 constexpr double kApart = 0.006;          // metres between those, mean over the landmarks
 
