@@ -3,7 +3,7 @@
 
 Prints a table of a checkout, of tracked files only, so that two commits can be compared: git worktree add DIR COMMIT.
 
-  product        core/, plugins/ and lab/: C++, CUDA, scripts and pages; no tests, tools, lab/microbench, examples
+  product        core/, plugins/, lab/ and python/: C++, CUDA, Python, scripts and pages; no tests, tools, lab/microbench, examples
   short files    C++ and CUDA files of the product with fewer than 25 lines, comments and blank lines included
   large folders  folders of the product with more than 25 tracked files of any kind, without those below them
   constants      constexpr and const statements of the tracker that declare names k..., and these names
@@ -29,7 +29,7 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-PRODUCT = ("core/", "plugins/", "lab/")
+PRODUCT = ("core/", "plugins/", "lab/", "python/")
 NO_PRODUCT = ("lab/microbench/",)
 CODE = (".cpp", ".hpp", ".cu", ".cuh", ".h")
 PAGES = (".js", ".css", ".html", ".py", ".sh")

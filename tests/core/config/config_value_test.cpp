@@ -98,7 +98,7 @@ TEST(ConfigValue, TakesOverridesReferencesAndTrackers) {
       Value::map({{"models", "@other.yaml"},
                   {"seed", "@other.yaml#seed"},
                   {"search", Value::map({{"angle_deg", 5}})},
-                  {"tracker", Value::map({{"from", "@fast.yaml"}, {"speed", 1}})}})
+                  {"tracker", Value::map({{"from", "@fast.yaml"}, {"patience", 1}})}})
           .document("my scene", folder.path())
           .as_scene(std::vector<std::string>{"optimizer.particles=8", "extra=\"@seed\""});
   EXPECT_EQ(scene.get("models").at(0).get("type").scalar(), "cup");
@@ -109,7 +109,7 @@ TEST(ConfigValue, TakesOverridesReferencesAndTrackers) {
   EXPECT_EQ(scene.get("optimizer").get("particles").where(), "--set optimizer.particles=8");
   EXPECT_EQ(scene.get("search").get("second_look").scalar(), "0.5") << "maps are joined";
   EXPECT_EQ(scene.get("search").get("angle_deg").where(), "my scene: search.angle_deg");
-  EXPECT_EQ(scene.get("tracker").get("speed").scalar(), "1");
+  EXPECT_EQ(scene.get("status").get("patience").scalar(), "1");
 }
 
 TEST(ConfigValue, ReferencesToNothingNameTheKeyPath) {

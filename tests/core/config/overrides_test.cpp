@@ -43,12 +43,12 @@ TEST_F(Overrides, SayWhereTheyComeFrom) {
 }
 
 TEST_F(Overrides, CreateWhatIsMissing) {
-  const ConfigNode root = load({"tracker.crop.padding=0.2", "lists.0.0=5", "none.a=1"});
-  EXPECT_EQ(root.get("tracker").get("crop").get("padding").scalar(), "0.2");
+  const ConfigNode root = load({"search.crop.padding=0.2", "lists.0.0=5", "none.a=1"});
+  EXPECT_EQ(root.get("search").get("crop").get("padding").scalar(), "0.2");
   EXPECT_EQ(root.get("lists").at(0).at(0).scalar(), "5");
   EXPECT_EQ(root.get("none").get("a").scalar(), "1");
-  EXPECT_EQ(root.where_key("tracker"), "--set tracker.crop.padding=0.2");
-  EXPECT_EQ(root.get("tracker").get("crop").path(), "tracker.crop");
+  EXPECT_EQ(root.where_key("search"), "--set search.crop.padding=0.2");
+  EXPECT_EQ(root.get("search").get("crop").path(), "search.crop");
 }
 
 TEST_F(Overrides, PutWhatTheSceneHasIntoSomethingElse) {
