@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -27,8 +28,14 @@ void migrate_files(const std::vector<std::filesystem::path>& files) {
     else
       changed.emplace_back(file, std::move(now));
   }
+  for (const auto& [file, text] : changed)
+    if (access(file.c_str(), W_OK) != 0)
+      throw OutputError(
+          fmt::format("{}: must not be written; no file was rewritten", file.string()));
   for (const auto& [file, text] : changed) {
+    const auto permissions = std::filesystem::status(file).permissions();
     write_whole(file, text);
+    std::filesystem::permissions(file, permissions);
     fmt::print("{}: rewritten\n", file.string());
   }
 }

@@ -101,8 +101,9 @@ bool Execution::go_on_recording() {
   const auto jobs = static_cast<std::size_t>(launch_.jobs);
   try {
     return recordings_.go_on(next, room(), idle_ ? jobs : jobs / kShareAhead);
-  } catch (const DataError&) {
+  } catch (const DataError& error) {
     failure_ = std::current_exception();  // to be thrown when the runs that have begun have ended
+    if (!working_.empty()) watcher_.say(fmt::format("failed: {}", error.what()));
     return false;
   }
 }
@@ -125,7 +126,8 @@ bool Execution::start_next() {
     waiting_.push_back(next);
     return true;
   }
-  if (folder_.state(run) == next.before) {
+  const RunState state = folder_.state(run);
+  if (state != RunState::ok && state == next.before) {
     start(next.run, *std::move(claimed));
   } else {  // another process was faster
     const auto failure = read_failure(folder_.run_path(run));

@@ -89,6 +89,11 @@ std::size_t Recordings::seeds_before(const Wanted& wanted, std::size_t run) cons
 bool Recordings::take_in_hand(const Wanted& wanted, bool may_start) {
   const auto is_there = [&] { return std::filesystem::exists(folder_.recording_path(wanted.id)); };
   if (is_there()) return there_.insert(wanted.id).second;
+  // Another process may have made the runs, and removed what nobody reads any more.
+  const bool is_read = std::ranges::all_of(ids_, [&](const auto& run) {
+    return run.second != wanted.id || folder_.state(plan_.runs[run.first]) == RunState::ok;
+  });
+  if (is_read) return there_.insert(wanted.id).second;
   if (!may_start) return false;
   auto claimed = folder_.claim_recording(wanted.id);
   if (!claimed) return false;  // another process makes it

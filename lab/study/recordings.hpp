@@ -28,7 +28,8 @@ std::string recording_id(const Plan& plan, const PlannedRun& run);
 
 /// Makes the recordings that the given runs (indices into the plan) read, each in a process of its
 /// own: those of the next runs first. Recordings whose noise is redrawn need much room on the disk,
-/// so those of at most two seeds are there at a time.
+/// so those of two seeds are made at a time, and removed when the study has the runs that read
+/// them.
 class Recordings {
  public:
   Recordings(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,

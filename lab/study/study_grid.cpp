@@ -130,9 +130,10 @@ std::string content_of(const Change& change, const std::filesystem::path& direct
     value->origin = origin;
     value->add("tracker", detail::read_unquoted(change.value, origin));
     detail::Includes includes;
+    includes.move_former(*value);
     detail::take_tracker(*value, {}, includes);
     for (detail::YamlNode::Entry& entry : value->entries)
-      if (entry.key == "tracker") detail::resolve_includes(entry.value, {"tracker"});
+      detail::resolve_includes(entry.value, {entry.key});
   } else {
     value = detail::read_assigned(change.key, change.value, origin);
   }

@@ -90,7 +90,7 @@ void add_solution(py::module_& module) {
            "Returns the position (3,) of a landmark in metres.")
       .def_property_readonly("sigmas", &sigmas_of,
                              "Error expected of each landmark (L,) in metres, or None if "
-                             "tracker.uncertainty is off.")
+                             "uncertainty is off.")
       .def_property_readonly(
           "hidden", [](const NamedSolution& s) { return s.solution.hidden; },
           "A bool for each landmark that something hides in both views; empty: none.")

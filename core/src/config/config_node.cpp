@@ -26,7 +26,10 @@ std::shared_ptr<const YamlNode> resolved(std::unique_ptr<YamlNode> root, detail:
   const std::vector<std::string> left = detail::take_tracker(*root, overrides, includes);
   std::vector<std::string> path;
   includes.resolve(root, path);
-  for (const std::string& assignment : left) detail::apply_override(*root, assignment);
+  for (const std::string& assignment : left) {
+    const auto today = includes.override_today(*root, assignment);
+    if (today) detail::apply_override(*root, *today);
+  }
   includes.move_former(*root);
   if (notes) *notes = includes.notes();
   return root;

@@ -9,13 +9,10 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {
-
-std::string where(const YamlNode& node) {
-  return describe_position(*node.origin, node.line, node.column);
-}
 
 std::unique_ptr<YamlNode> make_map(const YamlNode& like) {
   auto map = std::make_unique<YamlNode>();
@@ -74,11 +71,11 @@ void move(YamlNode& document, const FormerKey& key, std::unique_ptr<YamlNode> va
 void move_evidence(YamlNode& document, const YamlNode& value) {
   if (value.text == "true") return;
   if (value.text != "false")
-    throw ConfigError(fmt::format("{}: tracker.evidence: expected true or false", where(value)));
+    throw ConfigError(fmt::format("{}: tracker.evidence: expected true or false", place_of(value)));
   if (document.find(kJudge))
     throw ConfigError(fmt::format(
         "{}: found tracker.evidence beside `judge`, which has replaced it; leave it out",
-        where(value)));
+        place_of(value)));
   auto none = make_scalar(std::string(kNone), true);
   none->origin = value.origin;
   none->line = value.line;
@@ -102,6 +99,13 @@ constexpr std::array<FormerKey, 15> kFormerKeys{{{"recovery", ""},
                                                  {"confirmed_above", kJudge},
                                                  {"uncertain_above", kJudge}}};
 
+template <class Keys>
+std::vector<std::string> names_of(const Keys& keys) {
+  std::vector<std::string> names;
+  for (const FormerKey& key : keys) names.emplace_back(key.key);
+  return names;
+}
+
 }  // namespace
 
 const FormerKey* former_key(std::string_view key) {
@@ -122,7 +126,8 @@ std::vector<std::string> move_former_keys(YamlNode& document) {
   std::erase_if(document.entries, [](const auto& entry) { return entry.key == kTracker; });
   if (YamlNode::Entry* const evidence = map->find(kEvidence)) {
     move_evidence(document, *evidence->value);
-    moved.emplace_back("`tracker.evidence: false` is `judge: none`");
+    moved.push_back(evidence->value->text == "true" ? "`tracker.evidence: true` is not needed"
+                                                    : "`tracker.evidence: false` is `judge: none`");
   }
   for (YamlNode::Entry& entry : map->entries) {
     const FormerKey* const key = former_key(entry.key);
@@ -134,14 +139,52 @@ std::vector<std::string> move_former_keys(YamlNode& document) {
       moved.push_back(fmt::format("`tracker.{}` is `{}`", key->key, path_now(*key)));
     } else {
       throw ConfigError(fmt::format(
-          "{}: found the key '{}' in `tracker`, which names a tracker file; expected `tracker: "
+          "{}: found the key '{}' in `tracker`, which names a tracker file{}; expected `tracker: "
           "\"@trackers/NAME\"`",
-          describe_position(*map->origin, entry.line, entry.column), entry.key));
+          map->origin->is_program ? place_of(*entry.value)
+                                  : describe_position(*map->origin, entry.line, entry.column),
+          entry.key, did_you_mean(entry.key, names_of(kFormerKeys))));
     }
   }
   if (moved.empty()) return {};
-  return {fmt::format("{}: {} now; `hypotrack migrate FILE...` rewrites files", where(*map),
+  return {fmt::format("{}: {} now; `hypotrack migrate FILE...` rewrites files", place_of(*map),
                       fmt::join(moved, ", "))};
+}
+
+std::string path_today(std::string_view path) {
+  constexpr std::string_view kBefore = "tracker.";
+  if (!path.starts_with(kBefore)) return std::string(path);
+  const std::string_view rest = path.substr(kBefore.size());
+  const std::string_view first = rest.substr(0, rest.find('.'));
+  const FormerKey* const key = former_key(first);
+  return key ? path_now(*key) + std::string(rest.substr(first.size())) : std::string(path);
+}
+
+std::optional<std::string> override_today(YamlNode& document, const std::string& assignment,
+                                          std::vector<std::string>& notes) {
+  const std::size_t equals = std::min(assignment.find('='), assignment.size());
+  const std::string path = assignment.substr(0, equals);
+  std::string value = assignment.substr(equals);
+  std::string today = path_today(path);
+  if (path == "tracker.evidence" && (value == "=true" || value == "=false")) {
+    today = kJudge;
+    value = value == "=false" ? "=none" : "";
+  }
+  if (const std::size_t at = value.find_first_not_of("=\"'"); at < value.size() && value[at] == '@')
+    value = value.substr(0, at + 1) + path_today(value.substr(at + 1));
+  if (today != path)
+    notes.push_back(fmt::format("--set {}: `{}` is `{}` now", assignment, path,
+                                path == "tracker.evidence" ? "judge: none" : today));
+  if (path == kTracker)  // it replaces all of them
+    std::erase_if(document.entries, [](const YamlNode::Entry& entry) {
+      return entry.key == "status" || entry.key == "recovery" || entry.key == "uncertainty";
+    });
+  const YamlNode::Entry* const judge = document.find(kJudge);
+  const bool is_word =
+      !judge || (judge->value->kind == YamlNode::Kind::kScalar && judge->value->text != kNone);
+  if (today.starts_with("judge.") && is_word) (void)judge_of(document, document);
+  if (value.empty() && equals < assignment.size()) return std::nullopt;
+  return today + value;
 }
 
 }  // namespace hypotrack::detail::internal

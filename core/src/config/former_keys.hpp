@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,9 +28,18 @@ const FormerKey* former_key(std::string_view key);
 std::string path_now(const FormerKey& key);
 
 /// Moves the values of former keys of a scene or tracker file to where they belong now. Returns a
-/// note for the user for each map that had some. Throws ConfigError if a key is there twice, or has
-/// no meaning in `tracker`.
+/// note for the user for each map that had some. Throws ConfigError on keys that have no meaning in
+/// `tracker`, and on `evidence` beside `judge`.
 std::vector<std::string> move_former_keys(YamlNode& document);
+
+/// Returns a path of today for one that may begin with a former key: `tracker.recovery.run`.
+std::string path_today(std::string_view path);
+
+/// Returns an override with its paths of today, and prepares the document for it: thresholds of a
+/// judge that is a word make that a map. Adds a note if the override had a former key. Returns
+/// nothing if it says what is so anyway.
+std::optional<std::string> override_today(YamlNode& document, const std::string& assignment,
+                                          std::vector<std::string>& notes);
 
 /// Rewrites the former keys in the text of a scene, tracker file or study; all else stays as it is,
 /// comments included. Throws ConfigError if the text is no YAML, or a key must be moved by hand.

@@ -66,6 +66,25 @@ std::size_t count_of(const YamlNode& node) {
       known == 0 ? "it" : fmt::format("its '{}'", fmt::join(path.first(known), ".")), there));
 }
 
+/// Returns what a document has where a path of version 0.2 leads; null: nothing.
+std::unique_ptr<YamlNode> former_value(const YamlNode& root, std::span<const std::string> path) {
+  if (path.empty() || path.front() != kTracker || root.kind != YamlNode::Kind::kMap) return nullptr;
+  if (path.size() > 1) {
+    const YamlNode* const found =
+        find_at(root, split_path(path_today(fmt::format("{}", fmt::join(path, ".")))));
+    return found ? clone(*found) : nullptr;
+  }
+  auto tracker = std::make_unique<YamlNode>();
+  tracker->kind = YamlNode::Kind::kMap;
+  tracker->origin = root.origin;
+  for (const char* key : {"recovery", "uncertainty"})
+    if (const YamlNode::Entry* entry = root.find(key)) tracker->add(key, clone(*entry->value));
+  if (const YamlNode::Entry* status = root.find("status"))
+    for (const YamlNode::Entry& entry : status->value->entries)
+      tracker->add(entry.key, clone(*entry.value));
+  return tracker->entries.empty() ? nullptr : std::move(tracker);
+}
+
 /// Returns one name for a file, however its path is written.
 std::filesystem::path identity(const std::filesystem::path& file) {
   std::error_code error;
@@ -105,6 +124,8 @@ std::unique_ptr<YamlNode> Includes::included(const std::filesystem::path& file,
                                              std::size_t level) {
   const YamlNode& root = document(file.lexically_normal());
   const YamlNode* found = find_at(root, path);
+  const std::unique_ptr<YamlNode> former = found ? nullptr : former_value(root, path);
+  if (former) found = former.get();
   if (!found) fail_missing(root, root.origin->name, path);
   if (level + depth_of(*found) > kMaxYamlDepth)
     throw ConfigError(fmt::format("nested deeper than {} levels", kMaxYamlDepth));
@@ -112,6 +133,11 @@ std::unique_ptr<YamlNode> Includes::included(const std::filesystem::path& file,
   if (values_ > kMaxYamlNodes)
     throw ConfigError(fmt::format("more than {} values are included", kMaxYamlNodes));
   return clone(*found);
+}
+
+std::optional<std::string> Includes::override_today(YamlNode& document,
+                                                    const std::string& assignment) {
+  return internal::override_today(document, assignment, notes_);
 }
 
 void Includes::move_former(YamlNode& document) {

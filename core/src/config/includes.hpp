@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ class Includes {
 
   /// Moves the former keys of a document and keeps the notes on them.
   void move_former(YamlNode& document);
+  /// Returns an override with its keys of today (former_keys.hpp), and keeps the note on it.
+  std::optional<std::string> override_today(YamlNode& document, const std::string& assignment);
   const std::vector<std::string>& notes() const { return notes_; }
 
   /// Returns what a file has, its includes replaced and its former keys moved. Throws ConfigError,

@@ -108,7 +108,7 @@ class Migration {
     if (node.kind == YamlNode::Kind::kScalar) rename(at(node), node.text);
     for (const Entry& entry : node.entries) {
       if (node.kind == YamlNode::Kind::kMap) {
-        if (entry.key == "tracker.evidence" && entry.value->text == "false") {
+        if (entry.key == "tracker.evidence" && entry.value->plain && entry.value->text == "false") {
           edits_.push_back({at(entry), at(*entry.value) + 5, "judge: none"});
           continue;
         }
@@ -124,7 +124,10 @@ class Migration {
 
   /// Renames a former path, such as `tracker.recovery.run`, that begins there, maybe in quotes.
   void rename(std::size_t begin, std::string_view text) {
-    if (!text.starts_with(kDotted)) return;
+    const auto is_of_paths = [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+    };
+    if (!text.starts_with(kDotted) || !std::ranges::all_of(text, is_of_paths)) return;
     if (begin < text_.size() && (text_[begin] == '"' || text_[begin] == '\'')) ++begin;
     const std::string_view rest = text.substr(kDotted.size());
     const FormerKey* const key = former_key(rest.substr(0, rest.find('.')));
@@ -148,6 +151,10 @@ class Migration {
   }
 
   void rewrite(const YamlNode& parent, const Entry& tracker) {
+    // There it replaces the whole map, which its successors would not.
+    if (parent.parent)
+      refuse(tracker.line, tracker.column,
+             "found `tracker` with its former keys below another key");
     for (const Entry& entry : tracker.value->entries) {
       const std::string_view place = place_of(entry);
       const std::string_view now = place == kNone ? kJudge : place.empty() ? entry.key : place;
@@ -192,6 +199,8 @@ class Migration {
   void rewrite_flow(const YamlNode& parent, const Entry& tracker) {
     const std::vector<Entry>& entries = tracker.value->entries;
     const std::size_t end = end_of_flow(*tracker.value);
+    if (tracker.line != tracker.value->line)
+      refuse(tracker.line, tracker.column, "found braces on a line of their own");
     std::vector<std::string> whole;
     std::map<std::string_view, std::string> groups;
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -217,6 +226,8 @@ class Migration {
                         : "\n" + std::string(static_cast<std::size_t>(tracker.column - 1), ' ');
     std::string text;
     for (const std::string& each : whole) text += (text.empty() ? "" : between) + each;
+    if (text.empty() && is_flow(parent))
+      refuse(tracker.line, tracker.column, "found nothing to keep between braces");
     edits_.push_back({at(tracker), end, text});
   }
 
@@ -249,12 +260,15 @@ class Migration {
         --end;  // the next one's comments
       std::string chunk = lines_.of(begin, end);
       if (!chunk.ends_with('\n')) chunk += '\n';
+      const std::string comments = lines_.of(begin, entries[i].line);
       begin = end;
       const std::string_view place = place_of(entries[i]);
       if (place == kNone) {
+        text += dedented(comments, column - tracker.column);
         if (entries[i].value->text == "false") text += margin + "judge: none\n";
       } else if (place == kTracker) {
-        text += margin + "tracker: " + slice(at(*entries[i].value), lines_.begin(end)) + "\n";
+        text += dedented(comments, column - tracker.column) + margin +
+                "tracker: " + slice(at(*entries[i].value), lines_.begin(end)) + "\n";
       } else if (place.empty()) {
         text += dedented(chunk, column - tracker.column);
       } else {
@@ -273,6 +287,15 @@ class Migration {
   std::vector<Edit> edits_;
 };
 
+std::string with_windows_lines(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n' && (i == 0 || text[i - 1] != '\r')) out += '\r';
+    out += text[i];
+  }
+  return out;
+}
+
 void sort_keys(YamlNode& node) {
   if (node.kind == YamlNode::Kind::kMap) std::ranges::sort(node.entries, {}, &YamlNode::Entry::key);
   for (YamlNode::Entry& entry : node.entries) sort_keys(*entry.value);
@@ -288,12 +311,17 @@ std::string sorted_text(YamlNode& node) {
 std::string migrate(const std::string& text, const std::string& name) {
   std::string out = Migration(text, name).apply();
   if (out == text) return out;
+  if (text.find("\r\n") != std::string::npos) out = with_windows_lines(out);
   auto origin = std::make_shared<YamlOrigin>();
   origin->name = name;
   const auto before = read_yaml(text, origin);
   (void)move_former_keys(*before);
-  auto after = read_yaml(out, origin);
-  if (!before->find("scenes") && sorted_text(*before) != sorted_text(*after))
+  std::string now;
+  try {
+    now = sorted_text(*read_yaml(out, origin));
+  } catch (const ConfigError&) {  // refused below
+  }
+  if (now.empty() || (!before->find("scenes") && sorted_text(*before) != now))
     throw ConfigError(fmt::format(
         "{}: its former keys cannot be rewritten without a change of meaning; do it by hand",
         name));

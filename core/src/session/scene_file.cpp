@@ -68,9 +68,8 @@ LoadedScene load_scene(const SceneInput& input, std::span<const std::string> ove
   scene.file = ParamReader(scene.root).read<SceneFile>();
   if (scene.file.tracker.defined())
     throw ConfigError(
-        fmt::format("{}: tracker: expected the name of a tracker file, as "
-                    "\"@trackers/recommended\"",
-                    scene.file.tracker.where()));
+        fmt::format("{}: expected the name of a tracker file, as \"@trackers/recommended\"",
+                    detail::with_path(scene.file.tracker.where(), scene.file.tracker.path())));
   const InitSettings& init = scene.file.init;
   if (init.from.is_map() && (!init.file.empty() || init.frame != 0))
     throw ConfigError(fmt::format(

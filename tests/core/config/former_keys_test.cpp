@@ -44,6 +44,40 @@ TEST_F(FormerKeys, OfAnOverrideWinOverTheScene) {
   EXPECT_EQ(root.get("recovery").get("tile").scalar(), "16");
 }
 
+TEST_F(FormerKeys, OfAnOverrideReplaceWhatThoseOfTodayWould) {
+  const std::string scene = "recovery: {tile: 32, from: auto}\nstatus: {patience: 4}\n";
+  const auto with = [&](const std::vector<std::string>& overrides) {
+    return load(scene, overrides);
+  };
+  EXPECT_EQ(with({"tracker.recovery={run: frame}"}).get("recovery").to_yaml(), "run: frame\n");
+  EXPECT_EQ(with({"tracker.recovery.from={type: x}"}).get("recovery").get("from").to_yaml(),
+            "type: x\n");
+  EXPECT_EQ(with({"tracker.patience=3", "status.patience=5"}).get("status").to_yaml(),
+            "patience: 5\n");
+  EXPECT_EQ(with({"tracker.patience=@tracker.recovery.tile"}).get("status").to_yaml(),
+            "patience: 32\n");
+  EXPECT_FALSE(with({"tracker={recovery: {run: frame}}"}).get("status").defined());
+  EXPECT_EQ(with({"tracker.evidence=false"}).get("judge").scalar(), "none");
+  EXPECT_THAT(notes_of(scene, {"tracker.patience=3"}),
+              testing::ElementsAre("--set tracker.patience=3: `tracker.patience` is "
+                                   "`status.patience` now"));
+}
+
+TEST_F(FormerKeys, OfThresholdsMakeAMapOfTheJudge) {
+  const char* const now = "type: network\ntracked_above: 0.7\n";
+  for (const char* scene : {"seed: 1\n", "judge: network\n"})
+    for (const char* key : {"tracker.tracked_above=0.7", "judge.tracked_above=0.7"})
+      EXPECT_EQ(load(scene, {key}).get("judge").to_yaml(), now) << scene << key;
+}
+
+TEST_F(FormerKeys, LeadIntoIncludedScenes) {
+  write("old.yaml", "tracker: {recovery: {tile: 32}, patience: 3}\n");
+  for (const char* scene :
+       {"tracker: {recovery: \"@old.yaml\"}\n", "recovery: \"@old.yaml\"\n",
+        "recovery: \"@old.yaml#tracker.recovery\"\n", "tracker: \"@old.yaml#tracker\"\n"})
+    EXPECT_EQ(load(scene).get("recovery").to_yaml(), "tile: 32\n") << scene;
+}
+
 TEST_F(FormerKeys, OfATrackerFileGiveWayToKeysOfTheScene) {
   write("trackers/old.yaml", "tracker: {recovery: {tile: 32, run: frame}}\n");
   const ConfigNode root = load("tracker: \"@trackers/old\"\nrecovery: {tile: 16}\n");
@@ -55,7 +89,7 @@ TEST_F(FormerKeys, OfATrackerFileGiveWayToKeysOfTheScene) {
 TEST_F(FormerKeys, ThatNeverWereAreRefusedWithTheirPlace) {
   EXPECT_THAT(error("tracker:\n  patence: 3\n"),
               AllOf(HasSubstr("scene.yaml:2:3: found the key 'patence' in `tracker`"),
-                    HasSubstr("\"@trackers/NAME\"")));
+                    HasSubstr("did you mean 'patience'?"), HasSubstr("\"@trackers/NAME\"")));
 }
 
 TEST(Migrate, RewritesMapsInBraces) {
@@ -110,8 +144,10 @@ TEST(Migrate, LeavesOtherTextsAsTheyAre) {
 }
 
 TEST(Migrate, LeavesToPeopleWhatItCannotRewrite) {
-  for (const char* text : {"status: {history: 9}\ntracker: {patience: 3}\n",
-                           "tracker: {patience: 3,  # why\n  history: 9}\n"})
+  for (const char* text :
+       {"status: {history: 9}\ntracker: {patience: 3}\n",
+        "tracker: {patience: 3,  # why\n  history: 9}\n",
+        "scenes: {a: {set: {tracker: {patience: 3}}}}\n", "{seed: 1, tracker: {evidence: true}}\n"})
     EXPECT_THAT(test::message_of<ConfigError>([&] { migrated(text); }),
                 AllOf(HasSubstr("scene.yaml:"), HasSubstr("rewrite `tracker` by hand")));
 }

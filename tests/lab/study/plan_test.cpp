@@ -108,6 +108,15 @@ TEST_F(PlanTest, TrackersMayBeFilesWhereverTheyLie) {
   EXPECT_NE(with("@quick.yaml"), taken);
 }
 
+TEST_F(PlanTest, KeysBesideATrackerFileCountWhateverTheirName) {
+  write("quick.yaml", "optimizer: {type: pso, particles: 8}\n");
+  const auto with = [&](const std::string& key) {
+    return ids_with("optimizer: {type: pso}", "tracker: {from: \"@quick.yaml\", " + key + "}");
+  };
+  EXPECT_NE(with("patience: 3"), with("patience: 4"));
+  EXPECT_NE(with("recovery: {tile: 32}"), with("recovery: {tile: 64}"));
+}
+
 TEST_F(PlanTest, WhatSceneFilesTakeFromOthersCounts) {
   write("best.yaml", "seed: 1\noptimizer: {type: pso}\n");
   write("box.yaml", "models: []\noptimizer: \"@best.yaml\"\n");

@@ -35,7 +35,7 @@ std::string line_of(const Job& job, double time_limit_s) {
   } catch (const Json::type_error&) {
     throw ConfigError(
         fmt::format("{}: the name of the scene, or of a file of its run, is no UTF-8; rename it",
-                    job.out.string()));
+                    job.scene.string()));
   }
 }
 
