@@ -1,5 +1,8 @@
 #include "common.hpp"
 
+#include <cxxabi.h>
+#include <unistd.h>
+
 namespace hypotrack::python {
 
 namespace {
@@ -13,7 +16,27 @@ bool is_ending() {
 #endif
 }
 
+[[noreturn]] void stay() {
+  for (;;) pause();
+}
+
 }  // namespace
+
+WithoutGil::~WithoutGil() {
+  try {
+    PyEval_RestoreThread(state_);
+  } catch (const abi::__forced_unwind&) {
+    stay();
+  }
+}
+
+WithGil::WithGil() {
+  try {
+    acquired_.emplace();
+  } catch (const abi::__forced_unwind&) {
+    stay();
+  }
+}
 
 Held::~Held() {
   if (!object_) return;
@@ -21,7 +44,7 @@ Held::~Held() {
     object_.release();
     return;
   }
-  const py::gil_scoped_acquire acquire;
+  const WithGil acquire;
   object_ = py::object();
 }
 
@@ -31,7 +54,8 @@ std::string text_of(const py::error_already_set& error) {
     const py::object lines = py::module_::import("traceback")
                                  .attr("format_exception")(error.type(), error.value(),
                                                            error.trace() ? error.trace() : none);
-    std::string text = py::cast<std::string>(py::str("").attr("join")(lines));
+    std::string text = py::cast<py::bytes>(
+        py::str("").attr("join")(lines).attr("encode")("utf-8", "backslashreplace"));
     while (!text.empty() && text.back() == '\n') text.pop_back();
     return text;
   } catch (const py::error_already_set&) {
@@ -51,7 +75,7 @@ bool Interrupts::operator()() {
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return false;
   next_ = now + std::chrono::milliseconds(50);
-  const py::gil_scoped_acquire acquire;
+  const WithGil acquire;
   if (PyErr_CheckSignals() == 0) return false;
   error_.emplace();  // takes what was thrown
   raised_ = true;

@@ -22,10 +22,33 @@ namespace hypotrack::python {
 
 namespace py = pybind11;
 
+/// Gives the GIL back while it lives. Once Python ends, threads but the main one never get it
+/// again, and Python would unwind their stack, which C++ that catches everything cannot survive.
+/// Such a thread stays here until the process ends.
+class WithoutGil {
+ public:
+  WithoutGil() : state_(PyEval_SaveThread()) {}
+  ~WithoutGil();
+  WithoutGil(const WithoutGil&) = delete;
+  WithoutGil& operator=(const WithoutGil&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
+/// Takes the GIL while it lives, or stays as WithoutGil does.
+class WithGil {
+ public:
+  WithGil();
+
+ private:
+  std::optional<py::gil_scoped_acquire> acquired_;
+};
+
 /// Calls C++ that may wait or work for long, without the GIL.
 template <class Function>
 decltype(auto) without_gil(Function&& function) {
-  const py::gil_scoped_release release;
+  const WithoutGil release;
   return std::forward<Function>(function)();
 }
 
@@ -55,7 +78,7 @@ std::string text_of(const py::error_already_set& error);
 /// those of hypotrack.
 template <class Function>
 decltype(auto) in_python(Function&& function) {
-  const py::gil_scoped_acquire acquire;
+  const WithGil acquire;
   try {
     return std::forward<Function>(function)();
   } catch (py::error_already_set& error) {
@@ -106,7 +129,7 @@ template <class T>
 void end_without_gil(T& owner) {
   if (!owner) return;
   if (PyGILState_Check()) {
-    const py::gil_scoped_release release;
+    const WithoutGil release;
     owner.reset();
   } else {
     owner.reset();

@@ -180,6 +180,29 @@ print("done")
                                   timeout=120, cwd=os.path.dirname(__file__))
             self.assertEqual((done.stdout, done.returncode), ("done\n", 0), done.stderr)
 
+    def test_the_interpreter_ends_while_daemon_threads_work(self):
+        program = """
+import box, hypotrack, plugins_test, threading
+at_work = threading.Event()
+def frame(*_):
+    at_work.set()
+session = box.session(box.scene(source=box.synthetic(3000), optimizer={"type": "py_sampler"}))
+threading.Thread(target=lambda: session.run(on_frame=frame), daemon=True).start()
+rig = box.Rig()
+cost = box.session().frame_cost(rig.cameras)
+cost.look(rig.pictures(0), rig.state(0))
+def evaluate():
+    while True:
+        cost([rig.state(0)] * 500)
+threading.Thread(target=evaluate, daemon=True).start()
+at_work.wait(60)
+print("done")
+"""
+        for _ in range(3):
+            done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                                  timeout=120, cwd=os.path.dirname(__file__))
+            self.assertEqual((done.stdout, done.returncode), ("done\n", 0), done.stderr)
+
     def test_the_interpreter_ends_with_trackers_alive(self):
         program = """
 import box, hypotrack, plugins_test
