@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 namespace hypotrack::python {
 namespace {
 
@@ -73,6 +75,11 @@ bool has_type(const py::array& array, Pixels pixels) {
 std::string shape_text(const py::array& array) {
   std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
   return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
+}
+
+void check_blur(double blur) {
+  if (!std::isfinite(blur) || blur < 0)
+    throw Error(fmt::format("blur: expected pixels, 0 or more; found {}", blur));
 }
 
 cv::Mat picture_of(const py::handle& handle, Pixels pixels, const std::string& what) {

@@ -55,6 +55,9 @@ Eigen::MatrixXd matrix_of(const Doubles& array, Eigen::Index rows, Eigen::Index 
 /// Returns points (3xN) of an array (N, 3). Throws Error, naming `what`, on other shapes.
 Eigen::Matrix3Xd matrix_of_points(const Doubles& array, const char* what);
 
+/// Throws Error unless a blur is a number of pixels, 0 or more.
+void check_blur(double blur);
+
 /// Returns `(480, 640, 3)`.
 std::string shape_text(const py::array& array);
 

@@ -44,6 +44,7 @@ py::array jacobian_of(PythonFrameCost& self, const Doubles& state, const Doubles
 py::tuple equations_of(PythonFrameCost& self, const Doubles& state, const Doubles& steps,
                        double blur) {
   const Eigen::VectorXd at = vector_of(state, "state"), by = vector_of(steps, "steps");
+  check_blur(blur);
   const NormalEquations found =
       self.call([&](FrameCost& cost) { return cost.linearize(at, by, blur); });
   return py::make_tuple(rows_of<double>(found.a), array_of(found.g));

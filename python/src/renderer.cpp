@@ -56,7 +56,7 @@ void add_renderer(py::module_& module) {
       module, "Renderer",
       "Draws a scene with OpenGL, without a window. Raises DeviceError where "
       "there is none.")
-      .def(py::init<const std::shared_ptr<Scene>&>(), py::arg("scene"))
+      .def(py::init<const std::shared_ptr<Scene>&>(), py::arg("scene").none(false))
       .def("render", &PythonRenderer::render, py::arg("state"), py::arg("camera"), py::kw_only(),
            py::arg("background") = py::none(), py::arg("ambient") = 1.0, py::arg("diffuse") = 0.0,
            py::arg("samples") = 4,

@@ -100,6 +100,7 @@ py::tuple equations_of(SearchCall& call, const Doubles& point, double blur) {
   const Eigen::VectorXd at = vector_of(point, "point");
   if (at.size() != call.dimension() || !at.allFinite())
     throw Error("point: expected as many finite numbers as the search has");
+  check_blur(blur);
   const NormalEquations found = without_gil([&] { return call.linearize(at, blur); });
   return py::make_tuple(rows_of<double>(found.a), array_of(found.g));
 }

@@ -104,6 +104,8 @@ class Pictures(unittest.TestCase):
         with self.assertRaisesRegex(hypotrack.DataError, "camera's size"):
             self.rig.renderer.render(self.rig.state(0), camera,
                                      background=np.zeros((10, 10, 3), np.uint8))
+        with self.assertRaises(TypeError):
+            hypotrack.Renderer(None)
         with self.assertRaisesRegex(hypotrack.Error, "7 finite numbers"):
             self.rig.renderer.render(np.zeros(6), camera)
         with self.assertRaisesRegex(hypotrack.Error, "7 finite numbers"):

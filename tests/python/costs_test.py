@@ -62,6 +62,9 @@ class Costs(unittest.TestCase):
                 self.cost(states)
         with self.assertRaisesRegex(hypotrack.Error, "7 finite steps"):
             self.cost.jacobian(self.truth, np.ones(3))
+        for blur in [np.nan, np.inf, -1]:
+            with self.assertRaisesRegex(hypotrack.Error, "blur: expected pixels"):
+                self.cost.normal_equations(self.truth, np.full(7, 0.002), blur)
         with self.assertRaises((TypeError, ValueError)):
             self.cost("states")
 
