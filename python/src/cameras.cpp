@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "arrays.hpp"
@@ -27,6 +28,18 @@ DistortionModel model_of(const std::string& name, std::size_t coefficients) {
   throw DataError(fmt::format("model: found '{}', expected none, brown or fisheye", name));
 }
 
+/// Returns the camera with a size to check it by: the principal point is about the middle.
+Camera with_a_size(Camera camera) {
+  if (camera.width != 0 || camera.height != 0) return camera;
+  const auto about = [](double centre) {
+    return std::isfinite(centre) ? static_cast<int>(std::clamp(2 * std::abs(centre), 64.0, 65536.0))
+                                 : 64;
+  };
+  camera.width = about(camera.cx);
+  camera.height = about(camera.cy);
+  return camera;
+}
+
 Camera camera_of(const Doubles& matrix, std::pair<int, int> size, std::vector<double> distortion,
                  const std::string& model, const py::object& camera_from_world) {
   const Eigen::Matrix3d k = matrix_of(matrix, 3, 3, "matrix");
@@ -43,9 +56,7 @@ Camera camera_of(const Doubles& matrix, std::pair<int, int> size, std::vector<do
   camera.distortion = std::move(distortion);
   if (!camera_from_world.is_none())
     camera.camera_from_world = pose_of(py::cast<Doubles>(camera_from_world), "camera_from_world");
-  Camera sized = camera;
-  if (camera.width == 0 && camera.height == 0) sized.width = sized.height = 1;
-  validate(sized, "camera");
+  validate(with_a_size(camera), "camera");
   return camera;
 }
 
@@ -63,21 +74,31 @@ py::array project_all(const Camera& camera, const Doubles& points) {
   return rows_of<double>(pixels, one);
 }
 
+template <class T>
+T value_as(const py::handle& value, const std::string& name) {
+  try {
+    return py::cast<T>(value);
+  } catch (const py::cast_error&) {
+    throw ConfigError(fmt::format("load_calibration: {}: found {}, which is of another type", name,
+                                  py::cast<std::string>(py::repr(value))));
+  }
+}
+
 std::vector<Camera> load(const std::filesystem::path& file, const py::kwargs& settings) {
   CalibrationSettings from;
   from.file = file;
   for (const auto& [key, value] : settings) {
     const auto name = py::cast<std::string>(key);
     if (name == "second")
-      from.second = py::cast<std::filesystem::path>(value);
+      from.second = value_as<std::filesystem::path>(value, name);
     else if (name == "extrinsics")
-      from.extrinsics = py::cast<std::filesystem::path>(value);
+      from.extrinsics = value_as<std::filesystem::path>(value, name);
     else if (name == "cameras")
-      from.cameras = py::cast<std::vector<std::string>>(value);
+      from.cameras = value_as<std::vector<std::string>>(value, name);
     else if (name == "scale")
-      from.scale = py::cast<double>(value);
+      from.scale = value_as<double>(value, name);
     else if (name == "size")
-      from.image_size = py::cast<std::vector<double>>(value);
+      from.image_size = value_as<std::vector<double>>(value, name);
     else
       throw ConfigError(fmt::format(
           "load_calibration: unknown argument '{}'; expected second, extrinsics, cameras, scale or "

@@ -115,7 +115,7 @@ void add_scene(py::module_& module) {
           [](const Scene& scene, const py::dict& poses, const py::object& base) {
             const Eigen::VectorXd from =
                 base.is_none() ? scene.rest_state() : state_of(scene, py::cast<Doubles>(base));
-            return array_of(read_pose(value_of(poses).document("pose"), scene, from));
+            return array_of(read_pose(value_of(poses, "pose").document("pose"), scene, from));
           },
           py::arg("poses"), py::arg("base") = py::none(),
           "Returns the state (D,) `base`, or that at rest, with poses as `init.pose` writes them: "

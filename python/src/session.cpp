@@ -66,7 +66,8 @@ class Callbacks final : public RunWatcher {
     call([&] {
       const py::object answer =
           on_frame_.get()(std::make_shared<Frame>(frame), NamedSolution{solution, scene_}, error);
-      if (answer.is(py::bool_(false))) stopped_ = true;
+      py::detail::make_caster<bool> is;  // numpy has a False of its own
+      if (is.load(answer, false) && !static_cast<bool>(is)) stopped_ = true;
     });
   }
   bool stopped() const { return stopped_; }
@@ -79,7 +80,7 @@ class Callbacks final : public RunWatcher {
   template <class Function>
   void call(const Function& function) {
     if (stopped_) return;
-    const py::gil_scoped_acquire acquire;
+    const WithGil acquire;
     try {
       function();
     } catch (py::error_already_set& error) {
@@ -102,11 +103,11 @@ class PythonSession {
     SessionOptions options{.set = overrides_of(set), .plugin_path = std::move(plugin_path)};
     options.plugins = registered_plugins();
     for (const auto& [key, value] : meshes) {
-      const auto of = py::cast<std::string>(key);
+      const std::string of = text_of(key, "meshes");
       options.meshes.emplace(of, mesh_of(of, value));
     }
     if (py::isinstance<py::dict>(scene)) {
-      const ConfigNode document = value_of(scene).document(name, directory);
+      const ConfigNode document = value_of(scene, name).document(name, directory);
       session_ = without_gil([&] { return std::make_unique<Session>(document, options); });
     } else {
       if (!py::isinstance<py::str>(scene) && !py::hasattr(scene, "__fspath__"))
@@ -140,6 +141,8 @@ class PythonSession {
   bool run(const std::optional<Path>& out, std::optional<int> frames, const py::object& on_frame,
            const py::object& say) {
     const Busy busy(busy_, "session");
+    if (frames && *frames < 1)
+      throw ConfigError(fmt::format("frames: expected 1 or more, found {}", *frames));
     Callbacks callbacks(on_frame, say, scene_);
     Interrupts interrupts;
     bool complete = false;
@@ -165,18 +168,27 @@ class PythonSession {
 
  private:
   static std::vector<std::string> overrides_of(const py::object& set) {
-    if (!py::isinstance<py::dict>(set)) return py::cast<std::vector<std::string>>(set);
     std::vector<std::string> overrides;
-    const py::object json = py::module_::import("json");
-    const auto dumps = [&](const py::object& value) {
-      return py::cast<std::string>(json.attr("dumps")(value, py::arg("ensure_ascii") = false));
-    };
+    if (py::isinstance<py::str>(set) || !py::isinstance<py::iterable>(set))
+      throw ConfigError(
+          fmt::format("set: expected a list of texts `key.path=value`, or a dict of key path to "
+                      "value; found {}",
+                      py::cast<std::string>(py::type::of(set).attr("__name__"))));
+    if (!py::isinstance<py::dict>(set)) {
+      for (const py::handle item : set) overrides.push_back(text_of(item, "set"));
+      return overrides;
+    }
     for (const auto& [key, value] : py::cast<py::dict>(set)) {
-      const auto path = py::cast<std::string>(key);
-      const ConfigNode node = value_of(value, path).document(path);  // refuses what is no value
-      overrides.push_back(fmt::format("{}={}", path, dumps(object_of(node))));
+      const std::string path = text_of(key, "set");
+      const ConfigNode node = value_of(value, "set: " + path).document(path);
+      overrides.push_back(fmt::format("{}={}", path, line_of(node)));
     }
     return overrides;
+  }
+  static std::string text_of(const py::handle& object, const char* what) {
+    if (py::isinstance<py::str>(object)) return value_of(object, what).document(what).scalar();
+    throw ConfigError(
+        fmt::format("{}: expected text, found {}", what, py::cast<std::string>(py::repr(object))));
   }
 
   std::unique_ptr<Session> session_;

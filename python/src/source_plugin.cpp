@@ -1,5 +1,6 @@
 #include <pybind11/stl.h>
 
+#include <climits>
 #include <optional>
 
 #include "frames.hpp"
@@ -47,7 +48,7 @@ class PythonSource final : public Source {
         if (frame.views.empty()) frame.problem = "there are no pictures";
       }
       if (frame.index < 0) frame.index = next_;
-      next_ = frame.index + 1;
+      next_ = frame.index < INT_MAX ? frame.index + 1 : frame.index;
       return frame;
     });
   }

@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include <climits>
+
 #include "frames.hpp"
 
 namespace hypotrack::python {
@@ -50,6 +52,7 @@ NamedSolution PythonTracker::track(Frame frame) {
   const Busy busy(busy_, "tracker");
   Tracker& tracker = this->tracker();
   if (frame.index < 0) frame.index = next_;
+  const int next = frame.index < INT_MAX ? frame.index + 1 : frame.index;
   Interrupts interrupts;
   NamedSolution out{{}, scene_};
   try {
@@ -58,11 +61,11 @@ NamedSolution PythonTracker::track(Frame frame) {
       out.notes = tracker.take_notes();
     });
   } catch (const Stopped&) {
-    next_ = frame.index + 1;
+    next_ = next;
     interrupts.rethrow();
     throw;
   }
-  next_ = frame.index + 1;
+  next_ = next;
   return out;
 }
 

@@ -36,9 +36,13 @@ class Scenes(unittest.TestCase):
                       self.error(box.scene(tile={"size": np.array([1.0, 2.0])})))
 
     def test_refuses_values_that_no_scene_has(self):
-        self.assertIn("tile.size: expected a dict, list", self.error(box.scene(tile={"size": {1}})))
-        self.assertIn("more than 64 bits", self.error(box.scene(seed=1 << 70)))
-        self.assertIn("the key 3 is no text", self.error(box.scene(tile={3: 4})))
+        self.assertIn("mine: tile.size: expected a dict, list",
+                      self.error(box.scene(tile={"size": {1}}), name="mine"))
+        self.assertIn("scene: seed: the integer has more than 64 bits",
+                      self.error(box.scene(seed=1 << 70)))
+        self.assertIn("scene: tile: the key 3 is no text", self.error(box.scene(tile={3: 4})))
+        self.assertIn("scene: tile: the text '\\udc80' has no UTF-8",
+                      self.error(box.scene(tile="\udc80")))
         with self.assertRaisesRegex(hypotrack.ConfigError, "path of a file, or a dict; found int"):
             hypotrack.Session(3)
         with self.assertRaisesRegex(hypotrack.ConfigError, "cannot be opened"):
@@ -46,6 +50,28 @@ class Scenes(unittest.TestCase):
         loop = []
         loop.append(loop)
         self.assertIn("nested deeper", self.error(box.scene(tile=loop)))
+
+    def test_refuses_options_that_are_none(self):
+        for options, message in [({"set": "tile.size=64"}, "set: expected a list.*found str"),
+                                 ({"set": 5}, "set: expected a list.*found int"),
+                                 ({"set": [5]}, "set: expected text, found 5"),
+                                 ({"set": {5: 1}}, "set: expected text, found 5"),
+                                 ({"set": {"tile.size": {1}}}, "set: tile.size: expected a dict")]:
+            self.assertRegex(self.error(box.scene(), **options), message)
+        with self.assertRaisesRegex(hypotrack.ConfigError, "meshes: expected text, found 3"):
+            hypotrack.Session(box.scene(), meshes={3: box.MESHES["box"]})
+        with self.assertRaisesRegex(hypotrack.ConfigError, "frames: expected 1 or more"):
+            box.session(box.scene(source=box.synthetic(1))).run(frames=0)
+
+    def test_overrides_have_all_values_of_scenes(self):
+        self.assertIn("tile.padding: .inf is out of range",
+                      self.error(box.scene(), set={"tile.padding": np.inf}))
+        self.assertIn("not-a-number", self.error(box.scene(), set={"tile.padding": np.nan}))
+        self.assertIn("the text \"64\"", self.error(box.scene(), set={"tile.size": "64"}))
+        scene = box.session(box.scene(), set={"models": [{**box.scene()["models"][0],
+                                                          "name": "true"}],
+                                              "init.pose": {}, "tile": {"size": 64}}).scene
+        self.assertEqual(scene.models, ["true"])
 
     def test_takes_a_tracker_and_overrides(self):
         scene = {"models": box.scene()["models"], "tracker": "@trackers/rigid",
@@ -115,6 +141,18 @@ class Calibrations(unittest.TestCase):
             self.assertEqual(cameras[1].size, (320, 240))
         with self.assertRaises(hypotrack.DataError):
             hypotrack.load_calibration("/none.yaml")
+
+    def test_may_leave_the_size_to_the_first_picture(self):
+        rig = box.Rig()
+        unsized = [hypotrack.Camera(c.matrix, camera_from_world=c.camera_from_world)
+                   for c in rig.cameras]
+        tracker = box.session().tracker(unsized)
+        self.assertEqual(tracker.track(*rig.pictures(0), 0.0).status.name, "tracked")
+        self.assertEqual(tracker.cameras[0].size, box.SIZE)
+        with self.assertRaises(hypotrack.DataError):
+            hypotrack.Camera([[300, 0, np.nan], [0, 300, 120], [0, 0, 1]])
+        with self.assertRaisesRegex(hypotrack.ConfigError, "size: found 5"):
+            hypotrack.load_calibration("rig.yaml", size=5)
 
     def test_are_made_of_matrices(self):
         left, right = box.cameras()

@@ -82,6 +82,12 @@ class Tracking(unittest.TestCase):
             self.tracker.track(left, right, 0.6, index=0)
         self.assertEqual(self.tracker.track(left, right, 0.6).status, hypotrack.Status.tracked)
 
+    def test_refuses_a_frame_after_the_largest_index(self):
+        tracker = box.session().tracker(self.rig.cameras)
+        tracker.track(None, 0.0, index=2**31 - 1)
+        with self.assertRaisesRegex(hypotrack.DataError, "frame 2147483647 comes after"):
+            tracker.track(None, 0.1)
+
     def test_outlives_its_session_and_its_pictures(self):
         solution = None
         for i in range(3):
@@ -125,6 +131,10 @@ class Running(unittest.TestCase):
         self.assertFalse(self.session.run(on_frame=on_frame))
         self.assertEqual(seen, [0, 1])
         self.assertTrue(self.session.run(frames=1), "a session runs more than once")
+
+    def test_ends_at_the_false_of_numpy_but_not_at_zero(self):
+        for answer, complete in [(np.False_, False), (np.True_, True), (0, True)]:
+            self.assertEqual(self.session.run(on_frame=lambda *_: answer), complete)
 
     def test_what_a_callback_raises_comes_out_of_the_run(self):
         def on_frame(frame, solution, error):
