@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "arrays.hpp"
@@ -40,6 +42,25 @@ Hypotheses copy_of(std::span<const RenderedHypothesis> all) {
   return out;
 }
 
+/// Returns what an objective reads: a text, or several.
+ImageUse uses_of(const py::object& reads) {
+  constexpr std::array kNames = {
+      std::pair("color", &ImageUse::color), std::pair("mask", &ImageUse::mask),
+      std::pair("depth", &ImageUse::depth), std::pair("background", &ImageUse::background)};
+  ImageUse use;
+  for (const auto& entry : kNames) use.*entry.second = false;
+  for (const py::handle item : py::isinstance<py::str>(reads) ? py::make_tuple(reads) : reads) {
+    const auto name = py::cast<std::string>(py::str(item));
+    const auto* found = std::ranges::find(
+        kNames, name, [](const auto& entry) { return std::string_view(entry.first); });
+    if (found == kNames.end())
+      throw PluginError(
+          fmt::format("its `reads` has '{}'; expected color, mask, depth or background", name));
+    use.*found->second = true;
+  }
+  return use;
+}
+
 /// An objective in Python. It needs no rendering if its class says so.
 class PythonObjective final : public Objective, public BatchObjective {
  public:
@@ -50,14 +71,7 @@ class PythonObjective final : public Objective, public BatchObjective {
       draws_ = py::getattr(o, "needs_rendering", py::bool_(true)).cast<bool>();
       most_ = py::getattr(o, "most_at_once", py::int_(64)).cast<int>();
       if (most_ < 1) throw PluginError("its most_at_once is less than 1");
-      for (const auto& [name, use] : {std::pair("color", &ImageUse::color),
-                                      {"mask", &ImageUse::mask},
-                                      {"depth", &ImageUse::depth},
-                                      {"background", &ImageUse::background}})
-        if (py::hasattr(o, "reads")) {
-          const py::object reads = o.attr("reads");
-          use_.*use = reads.attr("__contains__")(name).cast<bool>();
-        }
+      if (py::hasattr(o, "reads")) use_ = uses_of(o.attr("reads"));
       prepares_ = py::hasattr(o, "prepare");
     });
   }

@@ -57,21 +57,34 @@ py::object to_python(const PythonParams::Value& value) {
   return std::visit([](const auto& v) -> py::object { return py::cast(v); }, value);
 }
 
+/// Makes a plugin; says which it is in what Python raises.
+template <class T, class Make>
+std::unique_ptr<T> named(const PluginContext& context, const std::string& name, const Make& make) {
+  try {
+    return make();
+  } catch (const PluginError& error) {
+    throw PluginError(fmt::format("{}: {} '{}': {}", context.config().where(), kPluginKind<T>, name,
+                                  error.what()));
+  }
+}
+
 template <class T>
 ProgramPlugin plugin_of(const std::string& name, const py::object& type,
                         std::unique_ptr<T> (*wrap)(std::shared_ptr<Held>)) {
   const auto held = std::make_shared<Held>(type);
-  return program_plugin<T>(name, [held, wrap](PluginContext& context) {
-    return wrap(make_object(held->get(), context));
+  return program_plugin<T>(name, [held, wrap, name](PluginContext& context) {
+    return named<T>(context, name, [&] { return wrap(make_object(held->get(), context)); });
   });
 }
 
 ProgramPlugin judge_plugin(const std::string& name, const py::object& type) {
   const auto held = std::make_shared<Held>(type);
-  return program_plugin<Judge>(name, [held](PluginContext& context) {
-    JudgeThresholds thresholds;
-    auto object = make_object(held->get(), context, &thresholds);
-    return python_judge(std::move(object), thresholds);
+  return program_plugin<Judge>(name, [held, name](PluginContext& context) {
+    return named<Judge>(context, name, [&] {
+      JudgeThresholds thresholds;
+      auto object = make_object(held->get(), context, &thresholds);
+      return python_judge(std::move(object), thresholds);
+    });
   });
 }
 
@@ -118,6 +131,20 @@ void PythonParams::visit(ParamVisitor& v) {
                p.value);
 }
 
+namespace {
+
+/// Returns a signature, with annotations that are texts evaluated where that works.
+py::object signature_of(const py::object& function) {
+  const py::object signature = py::module_::import("inspect").attr("signature");
+  try {
+    return signature(function, py::arg("eval_str") = true);
+  } catch (const py::error_already_set&) {
+    return signature(function);
+  }
+}
+
+}  // namespace
+
 PythonParams params_of(const py::object& type) {
   PythonParams params;
   if (!PyType_Check(type.ptr())) fail(type, "expected a class");
@@ -126,18 +153,29 @@ PythonParams params_of(const py::object& type) {
   const py::module_ inspect = py::module_::import("inspect");
   const py::object kinds = inspect.attr("Parameter");
   bool is_self = true;
-  for (const py::handle item :
-       inspect.attr("signature")(init).attr("parameters").attr("values")()) {
+  for (const py::handle item : signature_of(init).attr("parameters").attr("values")()) {
     if (std::exchange(is_self, false)) continue;
     const py::object kind = item.attr("kind");
     if (kind.equal(kinds.attr("VAR_POSITIONAL")) || kind.equal(kinds.attr("VAR_KEYWORD"))) continue;
     const auto name = py::cast<std::string>(item.attr("name"));
     const py::object given = item.attr("default");
     const bool required = given.is(kinds.attr("empty"));
-    params.all.push_back(
-        {name,
-         value_of_default(type, name, required ? py::object() : given, item.attr("annotation")),
-         required});
+    if (name == "type" || kind.equal(kinds.attr("POSITIONAL_ONLY")))
+      fail(type,
+           fmt::format("the parameter '{}' of its constructor has the name of the plugin's own "
+                       "key, or is positional only; name it otherwise",
+                       name));
+    try {
+      params.all.push_back(
+          {name,
+           value_of_default(type, name, required ? py::object() : given, item.attr("annotation")),
+           required});
+    } catch (const py::cast_error&) {
+      fail(type,
+           fmt::format("the default of the parameter '{}' of its constructor is no value that "
+                       "scenes can give: {}",
+                       name, py::cast<std::string>(py::repr(given))));
+    }
   }
   return params;
 }
@@ -162,10 +200,10 @@ std::vector<ProgramPlugin> registered_plugins() { return registry(); }
 
 void add_plugins(py::module_& module) {
   py::class_<PluginLog>(module, "PluginLog", "Tells the user something under a plugin's name.")
-      .def("note", &PluginLog::note, py::arg("text"), py::call_guard<py::gil_scoped_release>(),
+      .def("note", &PluginLog::note, py::arg("text"), py::call_guard<WithoutGil>(),
            "Tells what is good to know, once per text.")
-      .def("warning", &PluginLog::warning, py::arg("text"),
-           py::call_guard<py::gil_scoped_release>(), "Tells what probably makes results worse.");
+      .def("warning", &PluginLog::warning, py::arg("text"), py::call_guard<WithoutGil>(),
+           "Tells what probably makes results worse.");
   module.def(
       "register", &register_plugin, py::arg("kind"), py::arg("name"), py::arg("cls"),
       "Makes a class the plugin `type: name` of scenes that are opened afterwards in this "

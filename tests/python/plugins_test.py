@@ -238,6 +238,50 @@ class Registering(unittest.TestCase):
 
         self.refuse("optimizer", "x", Untyped, "parameter 'what'")
 
+    def test_refuses_parameters_that_no_scene_could_give(self):
+        def mixed(self, x=[1, "a"]): pass
+        def large(self, x=1 << 70): pass
+        def taken(self, type="x"): pass
+        def positional(self, x=1, /): pass
+        for init, message in [(mixed, "default of the parameter 'x'"),
+                              (large, "default of the parameter 'x'"),
+                              (taken, "parameter 'type'.*own key"),
+                              (positional, "parameter 'x'.*positional only")]:
+            self.refuse("optimizer", "x", type("Test", (), {"__init__": init}), message)
+
+    def test_takes_annotations_that_are_texts(self):
+        def init(self, file: "Path", share: "float" = 1):
+            self.values = (file, share)
+
+        def minimize(self, cost, region, budget, seed):
+            seen.append(self.values)
+
+        seen = []
+        registered("optimizer", __init__=init, minimize=minimize)
+        rig = box.Rig()
+        tracker = box.session(box.scene(optimizer={"type": "py_test", "file": "/x", "share": 2})
+                              ).tracker(rig.cameras)
+        tracker.track(*rig.pictures(0), 0.0)
+        self.assertEqual(seen[0], (Path("/x"), 2.0))
+
+    def test_what_a_constructor_raises_names_the_plugin(self):
+        def raises(self):
+            raise ValueError("no \udc80 luck")
+
+        def interrupted(self):
+            raise KeyboardInterrupt
+
+        registered("optimizer", __init__=raises, minimize=None)
+        with self.assertRaisesRegex(hypotrack.PluginError,
+                                    r"(?s)scene: optimizer: optimizer 'py_test': .*no .udc80 luck"):
+            box.session(box.scene(optimizer={"type": "py_test"}))
+        registered("optimizer")
+        with self.assertRaisesRegex(hypotrack.PluginError, "optimizer 'py_test': has no method"):
+            box.session(box.scene(optimizer={"type": "py_test"}))
+        registered("optimizer", __init__=interrupted, minimize=None)
+        with self.assertRaises(KeyboardInterrupt):
+            box.session(box.scene(optimizer={"type": "py_test"}))
+
     def test_says_which_method_is_missing(self):
         for kind, key, message in [("optimizer", "optimizer", "no method minimize"),
                                    ("objective", "objective", "no method costs"),
@@ -304,6 +348,11 @@ class Objectives(Plugins):
                                 (lambda n: None, "py_test")]:
             registered("objective", costs=lambda self, h, answer=answer: answer(len(h)))
             self.assertIn(message, self.error(box.scene(objective={"type": "py_test"})))
+
+    def test_what_it_reads_is_refused_if_there_is_no_such_picture(self):
+        registered("objective", costs=lambda self, h: np.zeros(len(h)), reads=("colour",))
+        self.assertIn("objective 'py_test': its `reads` has 'colour'; expected color, mask",
+                      self.error(box.scene(objective={"type": "py_test"})))
 
     def test_may_need_no_rendering(self):
         registered("objective", needs_rendering=False,

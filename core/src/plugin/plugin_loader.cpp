@@ -11,6 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/stop.hpp"
 #include "hypotrack/suggest.hpp"
 #include "plugin/crash_report.hpp"
 #include "plugin/folders.hpp"
@@ -66,6 +67,8 @@ void* create(std::string_view kind, const std::string& name, const Create& make,
     if (!message.starts_with(std::string(kind) + ": ")) throw;
     throw DataError(who + std::string(message.substr(kind.size())));
   } catch (const Error&) {
+    throw;
+  } catch (const Stopped&) {
     throw;
   } catch (const std::exception& e) {
     throw PluginError(fmt::format("{}: could not be made: its constructor threw {}: {}", who,
