@@ -1,7 +1,6 @@
 # Types of the package hypotrack. Docstrings are in the module: help(hypotrack.Tracker).
-import enum
 import os
-from typing import Any, Callable, Iterable, Mapping, Sequence, TypeVar, overload
+from typing import Any, Callable, ClassVar, Iterable, Sequence, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,12 +21,19 @@ class DeviceError(Error): ...
 class OutputError(Error): ...
 class BudgetSpent(Exception): ...
 
-class Status(enum.Enum):
-    tracked: int
-    uncertain: int
-    lost: int
-    absent: int
-    missing: int
+class Status:
+    tracked: ClassVar[Status]
+    uncertain: ClassVar[Status]
+    lost: ClassVar[Status]
+    absent: ClassVar[Status]
+    missing: ClassVar[Status]
+    __members__: ClassVar[dict[str, Status]]
+    def __init__(self, value: int) -> None: ...
+    def __int__(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
 
 class Camera:
     def __init__(self, matrix: ArrayLike, size: tuple[int, int] = ..., distortion: Sequence[float] = ...,
@@ -83,7 +89,7 @@ class Scene:
     def rest_state(self) -> _Floats: ...
     def landmarks(self, states: ArrayLike) -> _Floats: ...
     def normalize(self, state: ArrayLike) -> _Floats: ...
-    def pose(self, poses: Mapping[str, Any], base: ArrayLike | None = ...) -> _Floats: ...
+    def pose(self, poses: dict[str, Any], base: ArrayLike | None = ...) -> _Floats: ...
     def mesh(self, model: str) -> tuple[_Singles, NDArray[np.int32]]: ...
 
 class Solution:
@@ -169,8 +175,8 @@ class Source:
     def __next__(self) -> Frame: ...
 
 class Session:
-    def __init__(self, scene: _Path | Mapping[str, Any], *, set: Iterable[str] | Mapping[str, Any] = ...,
-                 plugin_path: Sequence[_Path] = ..., meshes: Mapping[str, Sequence[ArrayLike]] = ...,
+    def __init__(self, scene: _Path | dict[str, Any], *, set: Iterable[str] | dict[str, Any] = ...,
+                 plugin_path: Sequence[_Path] = ..., meshes: dict[str, Sequence[ArrayLike]] = ...,
                  name: str = ..., directory: _Path = ...) -> None: ...
     @property
     def scene(self) -> Scene: ...
