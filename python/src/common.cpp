@@ -82,20 +82,40 @@ bool Interrupts::operator()() {
   return true;
 }
 
+namespace {
+
+/// Adds the exception of a type. Its message may name files whose names are not UTF-8.
+template <class E>
+py::handle add_error(py::module_& module, const char* name, const char* doc, py::handle base) {
+  static const auto* const kType = new py::exception<E>(module, name, base);  // outlives Python
+  kType->attr("__doc__") = doc;
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const E& error) {
+      const std::string_view what = error.what();
+      const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+          what.data(), static_cast<py::ssize_t>(what.size()), "surrogateescape"));
+      if (text) PyErr_SetObject(kType->ptr(), text.ptr());
+    }
+  });
+  return *kType;
+}
+
+}  // namespace
+
 void add_errors(py::module_& module) {
-  const auto& error = py::register_exception<Error>(module, "Error");
-  error.attr("__doc__") = "Base of all exceptions of hypotrack. The message is complete.";
-  const auto add = [&]<class E>(const char* name, const char* doc, E*) {
-    py::register_exception<E>(module, name, error).attr("__doc__") = doc;
-  };
-  add("ConfigError", "An invalid scene or parameter.", static_cast<ConfigError*>(nullptr));
-  add("DataError", "An unusable picture, mesh, calibration or table.",
-      static_cast<DataError*>(nullptr));
-  add("PluginError", "A plugin that is missing or breaks its contract, or that raised.",
-      static_cast<PluginError*>(nullptr));
-  add("DeviceError", "A missing or failed GPU or OpenGL context.",
-      static_cast<DeviceError*>(nullptr));
-  add("OutputError", "A result that cannot be written.", static_cast<OutputError*>(nullptr));
+  const py::handle error = add_error<Error>(
+      module, "Error", "Base of all exceptions of hypotrack. The message is complete.",
+      PyExc_Exception);
+  add_error<ConfigError>(module, "ConfigError", "An invalid scene or parameter.", error);
+  add_error<DataError>(module, "DataError", "An unusable picture, mesh, calibration or table.",
+                       error);
+  add_error<PluginError>(module, "PluginError",
+                         "A plugin that is missing or breaks its contract, or that raised.", error);
+  add_error<DeviceError>(module, "DeviceError", "A missing or failed GPU or OpenGL context.",
+                         error);
+  add_error<OutputError>(module, "OutputError", "A result that cannot be written.", error);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       if (thrown) std::rethrow_exception(thrown);

@@ -51,6 +51,11 @@ class Scenes(unittest.TestCase):
         loop.append(loop)
         self.assertIn("nested deeper", self.error(box.scene(tile=loop)))
 
+    def test_names_files_whose_names_are_no_text(self):
+        with self.assertRaises(hypotrack.ConfigError) as caught:
+            hypotrack.Session("/tmp/\udc80.yaml")
+        self.assertIn("\udc80.yaml", str(caught.exception))
+
     def test_refuses_options_that_are_none(self):
         for options, message in [({"set": "tile.size=64"}, "set: expected a list.*found str"),
                                  ({"set": 5}, "set: expected a list.*found int"),
