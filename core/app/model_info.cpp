@@ -43,7 +43,7 @@ ModelInfo describe_model(PluginLoader& plugins, std::string_view name,
   const std::string where = "plugins info";
   auto node =
       detail::read_document(fmt::format("type: {}", name), where, std::filesystem::current_path());
-  for (const std::string& setting : settings) detail::apply_override(*node, setting);
+  for (const std::string& setting : settings) detail::apply_override(*node, setting, setting);
   const auto model = plugins.make<Model>(ConfigNode::parse(detail::write_yaml(*node), where));
   ModelInfo info;
   // A unit quaternion is four numbers of three degrees of freedom.

@@ -28,7 +28,7 @@ std::shared_ptr<const YamlNode> resolved(std::unique_ptr<YamlNode> root, detail:
   includes.resolve(root, path);
   for (const std::string& assignment : left) {
     const auto today = includes.override_today(*root, assignment);
-    if (today) detail::apply_override(*root, *today);
+    if (today) detail::apply_override(*root, *today, assignment);
   }
   includes.move_former(*root);
   if (notes) *notes = includes.notes();

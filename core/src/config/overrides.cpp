@@ -141,8 +141,8 @@ void assign(YamlNode& root, std::span<const std::string> path, std::unique_ptr<Y
   }
 }
 
-void apply_override(YamlNode& root, const std::string& assignment) {
-  const std::string say = "--set " + assignment;
+void apply_override(YamlNode& root, const std::string& assignment, const std::string& written) {
+  const std::string say = "--set " + written;
   const std::size_t equals = assignment.find('=');
   const auto path = split_path(std::string_view(assignment).substr(0, equals));
   if (equals == std::string::npos || std::find(path.begin(), path.end(), "") != path.end()) {

@@ -26,8 +26,8 @@ const YamlNode* find_at(const YamlNode& root, std::span<const std::string> path)
 /// Returns the number of nested levels of maps and lists.
 std::size_t depth_of(const YamlNode& node);
 
-/// Applies one override `key.path=value`. Throws ConfigError, naming the override.
-void apply_override(YamlNode& root, const std::string& assignment);
+/// Applies one override `key.path=value`. Throws ConfigError, naming it as it was `written`.
+void apply_override(YamlNode& root, const std::string& assignment, const std::string& written);
 
 /// Parses the value of an assignment, where a text that begins with @ needs no quotes. Throws
 /// ConfigError.

@@ -62,7 +62,8 @@ TEST_F(JudgeTest, FormerKeysOfThresholdsGoToTheJudgeWithANote) {
 }
 
 TEST_F(JudgeTest, FormerKeysAreCheckedAndNotTakenBesideAJudge) {
-  expect_refused(box_scene(), {"tracker.tracked_above", "from 0 to 1"},
+  expect_refused(box_scene(),
+                 {"--set tracker.tracked_above=7: judge.tracked_above: ", "from 0 to 1"},
                  {"--set", "tracker.tracked_above=7"});
   expect_refused(
       box_scene() + "judge: agreement\ntracker: {evidence: false}\n",
