@@ -460,7 +460,8 @@ void CandidateFinder::learn(const Frame& frame, const Candidate& best, const Mod
   search_.learn(frame, best.found.state);
   recovery_.remember(best.found.state, sure);
   const bool all = std::ranges::find(sure, false) == sure.end();
-  if (is_time && all) recovery_.learn_backgrounds(frame, best.found.state);
+  // Without a judge nothing is ever sought there.
+  if (settings_.judged && is_time && all) recovery_.learn_backgrounds(frame, best.found.state);
 }
 
 }  // namespace hypotrack::internal
