@@ -61,8 +61,7 @@ void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string>
 /// models and source. `@trackers/recommended` is trackers/recommended.yaml in the document's
 /// folder, or among the configurations that come with hypotrack; `@FILE.yaml` is a path, and one of
 /// a scene is left to Includes::resolve(). Keys of the document stay, and maps without a `type` are
-/// joined. An override replaces all keys of a tracker. Throws
-/// ConfigError.
+/// joined. An override replaces all keys of a tracker. Throws ConfigError.
 std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::string> overrides,
                                       Includes& includes);
 

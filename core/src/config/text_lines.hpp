@@ -15,7 +15,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
 class Lines {
  public:
   explicit Lines(const std::string& text) : text_(text) {
-    for (std::size_t at = 0; at != std::string::npos && at < text.size();) {
+    const std::size_t mark = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // of UTF-8, in no column
+    for (std::size_t at = mark; at != std::string::npos && at < text.size();) {
       begins_.push_back(at);
       at = text.find('\n', at);
       if (at != std::string::npos) ++at;

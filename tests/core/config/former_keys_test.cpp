@@ -137,6 +137,13 @@ TEST(Migrate, RewritesPathsOfStudies) {
             "plots: [{x: uncertainty.enabled}]\n");
 }
 
+TEST(Migrate, KeepsTheMarkOfUtf8AndTheEndsOfLines) {
+  EXPECT_EQ(migrated("\xEF\xBB\xBFtracker: {patience: 3}\r\nseed: 1\r\n"),
+            "\xEF\xBB\xBFstatus: {patience: 3}\r\nseed: 1\r\n");
+  EXPECT_EQ(migrated("tracker:\r\n  patience: 3\r\n  recovery: {tile: 32}\r\n"),
+            "recovery: {tile: 32}\r\nstatus:\r\n  patience: 3\r\n");
+}
+
 TEST(Migrate, LeavesOtherTextsAsTheyAre) {
   for (const char* text :
        {"tracker: \"@trackers/real\"\n", "grid: {tracker: {fast: {seed: 2}}}\n", "", "seed: 1"})
