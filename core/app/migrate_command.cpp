@@ -31,7 +31,7 @@ void migrate_files(const std::vector<std::filesystem::path>& files) {
   for (const auto& [file, text] : changed)
     if (access(file.c_str(), W_OK) != 0)
       throw OutputError(
-          fmt::format("{}: must not be written; no file was rewritten", file.string()));
+          fmt::format("{}: is write-protected; no file was rewritten", file.string()));
   for (const auto& [file, text] : changed) {
     const auto permissions = std::filesystem::status(file).permissions();
     write_whole(file, text);

@@ -40,8 +40,8 @@ std::string report(const Plan& plan, const std::map<std::size_t, std::string>& p
                             problems.size(), plan.cells.size());
 }
 
-/// Returns the job that checks a cell. A worker has its context of CUDA already, which a process
-/// needs a second for.
+/// Returns the job that checks a cell. A worker has a CUDA context already; a process would take a
+/// second to make one.
 Job check_of(const Plan& plan, std::size_t index, const Launch& launch, const Crew& crew) {
   const Cell& cell = plan.cells[index];
   Job job{.key = index, .scene = plan.scene_of(cell).file};

@@ -17,7 +17,7 @@ std::string below(const std::string& path, const std::string& step) {
   throw ConfigError(fmt::format("{}{}", path.empty() ? "" : path + ": ", problem));
 }
 
-/// Returns a text as UTF-8, which lone surrogates have none of.
+/// Returns a text as UTF-8. Throws ConfigError, naming `path`, on lone surrogates.
 std::string utf8_of(const py::handle& text, const std::string& path) {
   py::ssize_t size = 0;
   const char* bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);

@@ -1,12 +1,39 @@
 #include "base/machine.hpp"
 
 #include <sched.h>
+#include <sys/socket.h>
+#include <sys/un.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstddef>
 #include <fstream>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
+
+#include "base/descriptor.hpp"
 
 namespace hypotrack::internal {
+namespace {
+
+/// Binds a socket in Linux's abstract namespace, which leaves no file and ends with the process.
+/// Returns nothing if another process has it. Throws std::system_error.
+std::optional<Descriptor> bind(const std::string& name) {
+  Descriptor made(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  const std::string text = '\0' + std::string("hypotrack/") + name;
+  const std::size_t size = std::min(text.size(), sizeof address.sun_path);
+  std::copy_n(text.begin(), size, address.sun_path);
+  const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + size);
+  if (::bind(made.get(), reinterpret_cast<const sockaddr*>(&address), length) == 0) return made;
+  if (errno == EADDRINUSE) return std::nullopt;
+  throw_system_error(errno, "cannot bind a socket");
+}
+
+}  // namespace
 
 int core_count() {
   cpu_set_t cores;
@@ -21,6 +48,20 @@ std::string processor_name() {
     if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
   }
   return "unknown processor";
+}
+
+bool claim(const std::string& name) {
+  static std::mutex mutex;
+  static std::map<std::string, Descriptor> claims;
+  const std::lock_guard lock(mutex);
+  if (claims.contains(name)) return true;
+  try {
+    std::optional<Descriptor> made = bind(name);
+    if (!made) return false;
+    claims.emplace(name, std::move(*made));
+  } catch (const std::system_error&) {  // no sockets here
+  }
+  return true;
 }
 
 }  // namespace hypotrack::internal

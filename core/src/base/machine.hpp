@@ -13,5 +13,9 @@ int core_count();
 /// Returns the processor's name: `Intel(R) Xeon(R) Gold 6448Y`, or `unknown processor`.
 std::string processor_name();
 
+/// Claims something of this machine, by a name of up to 80 characters, for as long as this process
+/// lives. Returns false if another hypotrack has claimed it; true if that cannot be told.
+bool claim(const std::string& name);
+
 }  // namespace internal
 }  // namespace hypotrack

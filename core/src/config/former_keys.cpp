@@ -23,7 +23,7 @@ std::unique_ptr<YamlNode> make_map(const YamlNode& like) {
   return map;
 }
 
-/// Joins `value` into the value of a key. The former key wins: an override may have written it.
+/// Joins `value` into the value of a key. Where both have a key, `value` wins.
 void join(YamlNode& into, const std::string& key, std::unique_ptr<YamlNode> value) {
   YamlNode::Entry* const there = into.find(key);
   if (!there) {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "base/claim.hpp"
+#include "base/machine.hpp"
 #include "cost/cuda/device_code.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"

@@ -19,7 +19,7 @@ std::string why_no_device(int index = 0);
 /// hypotrack was not built for it. Empty if it can. Takes some of the GPU's memory.
 std::string why_not_this_device(int index);
 
-/// Claims a GPU for this process (base/claim.hpp). Returns false if another hypotrack uses it, so
+/// Claims a GPU for this process (base/machine.hpp). Returns false if another hypotrack uses it, so
 /// that the two take turns.
 bool claim_gpu(int index);
 

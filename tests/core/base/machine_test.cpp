@@ -1,4 +1,4 @@
-#include "base/claim.hpp"
+#include "base/machine.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
