@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "base/profile.hpp"
 #include "camera/rectification.hpp"
 #include "hypotrack/back_project.hpp"
 #include "tile/resample.hpp"
@@ -83,14 +84,14 @@ std::optional<RectifiedPair> RectifiedPair::make(const std::array<Camera, 2>& ca
 }
 
 GreyPair RectifiedPair::resample(const Frame& frame) const {
+  const ProfiledPart part("rectify");
   GreyPair out;
   tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t v) {
     cv::Mat shrunken = frame.views[v].color, grey;
     if (shrink_ > 1)
       cv::resize(shrunken, shrunken, shrunken.size() / shrink_, 0, 0, cv::INTER_AREA);
     cv::cvtColor(shrunken, grey, cv::COLOR_BGR2GRAY);
-    cv::remap(grey, out[v].full, x_[v], y_[v], cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-    cv::resize(out[v].full, out[v].half, {}, 0.5, 0.5, cv::INTER_AREA);
+    cv::remap(grey, out[v], x_[v], y_[v], cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   });
   return out;
 }

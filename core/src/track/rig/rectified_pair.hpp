@@ -12,11 +12,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// A grey picture and the same at half its size.
-struct GreyPicture {
-  cv::Mat1b full, half;
-};
-using GreyPair = std::array<GreyPicture, 2>;
+using GreyPair = std::array<cv::Mat1b, 2>;
 
 /// Makes small grey pictures of a pair of cameras in which points have the same row.
 class RectifiedPair {

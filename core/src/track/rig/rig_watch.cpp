@@ -71,8 +71,7 @@ void RigWatch::look(const Frame& frame) {
 void RigWatch::look_at_rows(const GreyPair& pictures, int frame) {
   constexpr double kRows = 0.06;  // of the height: 20 rows of 360
   constexpr double kFar = 1.5;    // pixels from the epipolar lines, as `calibration check` has it
-  const MatchRange range{pair_.disparity(kNearest),
-                         static_cast<int>(kRows * pictures[0].full.rows)};
+  const MatchRange range{pair_.disparity(kNearest), static_cast<int>(kRows * pictures[0].rows)};
   fit_.add(match_rows(pictures, pair_.center(), range));
   estimate_ = fit_.estimate();
   if (estimate_.matches < kFewest) return;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/profile.hpp"
+
 namespace hypotrack::internal {
 namespace {
 
@@ -68,11 +70,12 @@ std::optional<Eigen::Vector2d> find_fine(const cv::Mat1b& from, const cv::Point&
                          near.y + y - kReach + double{peak(alike(y - 1, x), top, alike(y + 1, x))});
 }
 
-std::optional<Eigen::Vector2d> find(const GreyPicture& from, const cv::Point& at,
-                                    const GreyPicture& to, const cv::Rect& where) {
-  const cv::Rect half(where.x / 2, where.y / 2, where.width / 2 + 1, where.height / 2 + 1);
-  const auto coarse = find_coarse(from.half, at / 2, to.half, half);
-  return coarse ? find_fine(from.full, at, to.full, *coarse * 2) : std::nullopt;
+/// Finds a patch of the first picture in a part of the second, given both also at half their size.
+std::optional<Eigen::Vector2d> find(const GreyPair& full, const GreyPair& half, const cv::Point& at,
+                                    const cv::Rect& where) {
+  const cv::Rect half_where(where.x / 2, where.y / 2, where.width / 2 + 1, where.height / 2 + 1);
+  const auto coarse = find_coarse(half[0], at / 2, half[1], half_where);
+  return coarse ? find_fine(full[0], at, full[1], *coarse * 2) : std::nullopt;
 }
 
 /// Returns corners from all over a picture, `most` of them.
@@ -97,13 +100,17 @@ std::vector<cv::Point> corners(const cv::Mat1b& picture, std::size_t most) {
 
 std::vector<RowMatch> match_rows(const GreyPair& pictures, const Eigen::Vector2d& center,
                                  const MatchRange& range) {
+  const ProfiledPart part("match rows");
   const int disparity = static_cast<int>(range.disparity);
-  const std::vector<cv::Point> all = corners(pictures[0].full, kCorners);
+  const std::vector<cv::Point> all = corners(pictures[0], kCorners);
+  GreyPair half;
+  for (std::size_t v = 0; v < half.size(); ++v)
+    cv::resize(pictures[v], half[v], {}, 0.5, 0.5, cv::INTER_AREA);
   std::vector<std::optional<Eigen::Vector2d>> matches(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const cv::Point& at = all[i];
     const cv::Rect row(at.x - disparity, at.y - range.rows, disparity + kFine, 2 * range.rows);
-    matches[i] = find(pictures[0], at, pictures[1], row);
+    matches[i] = find(pictures, half, at, row);
   });
   std::vector<RowMatch> out;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -2,19 +2,20 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <numeric>
+#include <opencv2/core.hpp>
 #include <vector>
 
+#include "base/profile.hpp"
 #include "hypotrack/median.hpp"
+#include "track/rig/piece_kernel.hpp"
 
 namespace hypotrack::internal {
 namespace {
 
-constexpr int kPieceSide = 12;                                               // pixels of a piece
 constexpr int kMostLate = ViewTiming::kMostLate, kLags = 2 * kMostLate + 1;  // frames
 constexpr std::size_t kMostPieces = 48;
 constexpr std::size_t kVotes = 12;  // frames that agree
@@ -26,74 +27,57 @@ struct Fit {
 };
 using Fits = std::array<Fit, kLags>;  ///< by lag
 
+/// Returns which pieces of a picture differ from those of another, row by row.
+std::vector<bool> changed_pieces(const cv::Mat1b& now, const cv::Mat1b& then) {
+  constexpr int kChange = 5 * kPieceSide * kPieceSide;  // of 255
+  const int columns = now.cols / kPieceSide, rows = now.rows / kPieceSide;
+  std::vector<std::uint16_t> sums(static_cast<std::size_t>(now.cols));
+  std::vector<bool> out;
+  for (int y = 0; y < rows; ++y) {
+    sum_changes(now.ptr(y * kPieceSide), then.ptr(y * kPieceSide), now.step, sums);
+    for (int x = 0; x < columns; ++x) {
+      const auto first = sums.begin() + x * kPieceSide;
+      out.push_back(std::accumulate(first, first + kPieceSide, 0) >= kChange);
+    }
+  }
+  return out;
+}
+
 /// Returns the pieces of a picture that have texture and change from the frame before and to the
 /// one after.
 std::vector<cv::Point> moving_pieces(const cv::Mat1b& before, const cv::Mat1b& now,
                                      const cv::Mat1b& after) {
-  constexpr double kChange = 5, kTexture = 6;  // of 255
+  constexpr double kTexture = 6;  // of 255
+  const std::vector<bool> came = changed_pieces(now, before), goes = changed_pieces(now, after);
+  const int columns = now.cols / kPieceSide;
   std::vector<cv::Point> all;
-  for (int y = 0; y + kPieceSide <= now.rows; y += kPieceSide)
-    for (int x = 0; x + kPieceSide <= now.cols; x += kPieceSide) {
-      const cv::Rect piece(x, y, kPieceSide, kPieceSide);
-      constexpr double kPixels = kPieceSide * kPieceSide;
-      if (cv::norm(now(piece), before(piece), cv::NORM_L1) < kChange * kPixels) continue;
-      if (cv::norm(now(piece), after(piece), cv::NORM_L1) < kChange * kPixels) continue;
-      cv::Scalar mean, deviation;
-      cv::meanStdDev(now(piece), mean, deviation);
-      if (deviation[0] > kTexture) all.emplace_back(x, y);
-    }
+  for (std::size_t i = 0; i < came.size(); ++i) {
+    if (!came[i] || !goes[i]) continue;
+    const cv::Point at =
+        kPieceSide * cv::Point(static_cast<int>(i) % columns, static_cast<int>(i) / columns);
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(now(cv::Rect(at, cv::Size(kPieceSide, kPieceSide))), mean, deviation);
+    if (deviation[0] > kTexture) all.push_back(at);
+  }
   const std::size_t step = (all.size() + kMostPieces - 1) / kMostPieces;
   std::vector<cv::Point> some;
   for (std::size_t i = 0; i < all.size(); i += step) some.push_back(all[i]);
   return some;
 }
 
-/// Returns a piece of a picture, row by row, with mean 0 and norm 1.
-Eigen::ArrayXf normalized(const cv::Mat1b& picture, const cv::Point& at) {
-  Eigen::ArrayXf piece(kPieceSide * kPieceSide);
-  for (int y = 0; y < kPieceSide; ++y)
-    for (int x = 0; x < kPieceSide; ++x)
-      piece[y * kPieceSide + x] = static_cast<float>(picture(at.y + y, at.x + x));
-  piece -= piece.mean();
-  return piece / piece.matrix().norm();
-}
-
-/// Returns the highest correlation of a normalised piece with those of some columns of a picture,
-/// in the same rows.
-Fit best_fit(const Eigen::ArrayXf& piece, const cv::Mat1b& columns, int row) {
-  const Eigen::Index width = columns.cols, places = width - kPieceSide + 1;
-  if (places < 1) return {};
-  Eigen::ArrayXf products = Eigen::ArrayXf::Zero(places), sums = products, squares = products;
-  Eigen::ArrayXf line(width), total = Eigen::ArrayXf::Zero(width), total_squares = total;
-  for (int y = 0; y < kPieceSide; ++y) {
-    const std::uint8_t* pixels = columns.ptr(row + y);
-    for (Eigen::Index x = 0; x < width; ++x) line[x] = static_cast<float>(pixels[x]);
-    total += line;
-    total_squares += line.square();
-    for (int x = 0; x < kPieceSide; ++x)
-      products += piece[y * kPieceSide + x] * line.segment(x, places);
-  }
-  for (int x = 0; x < kPieceSide; ++x) {
-    sums += total.segment(x, places);
-    squares += total_squares.segment(x, places);
-  }
-  constexpr float kPixels = kPieceSide * kPieceSide;
-  const Eigen::ArrayXf variances = squares - sums.square() / kPixels;
-  Eigen::Index column = 0;
-  const float likeness = (products / variances.max(kPixels).sqrt()).maxCoeff(&column);
-  return {double{likeness}, static_cast<double>(column)};
-}
-
-/// Compares a piece of a picture with those of the other view.
+/// Compares a piece of a picture with those of the other view, in the same rows.
 Fits fits_of(const cv::Mat1b& now, const cv::Point& at, const std::array<cv::Mat1b, kLags>& others,
              double disparity) {
-  const Eigen::ArrayXf piece = normalized(now, at);
+  const Piece piece(now.ptr(at.y) + at.x, static_cast<std::ptrdiff_t>(now.step));
   const int first = std::max(0, cvRound(at.x - 1.2 * disparity));
   const int last = std::min(now.cols, cvRound(at.x + kPieceSide + 0.2 * disparity));
+  std::vector<float> likeness(static_cast<std::size_t>(last - first - kPieceSide + 1));
   Fits out;
   for (std::size_t lag = 0; lag < kLags; ++lag) {
-    out[lag] = best_fit(piece, others[lag].colRange(first, last), at.y);
-    out[lag].disparity = at.x - first - out[lag].disparity;
+    const cv::Mat1b& other = others[lag];
+    correlate(piece, other.ptr(at.y) + first, static_cast<std::ptrdiff_t>(other.step), likeness);
+    const auto best = std::ranges::max_element(likeness);
+    out[lag] = {double{*best}, static_cast<double>(at.x - first - (best - likeness.begin()))};
   }
   return out;
 }
@@ -153,15 +137,16 @@ std::optional<ViewTiming::Peak> peak_of(const Comparison& views) {
 }  // namespace
 
 void ViewTiming::add(const GreyPair& pictures) {
+  const ProfiledPart part("time the views");
   ++taken_;
-  recent_.push_back({pictures[0].full, pictures[1].full});
+  recent_.push_back(pictures);
   if (recent_.size() < kLags) return;
   if (recent_.size() > kLags) recent_.pop_front();
-  const cv::Mat1b& now = recent_[kMostLate].first;
+  const cv::Mat1b& now = recent_[kMostLate][0];
   const std::vector<cv::Point> pieces =
-      moving_pieces(recent_[kMostLate - 1].first, now, recent_[kMostLate + 1].first);
+      moving_pieces(recent_[kMostLate - 1][0], now, recent_[kMostLate + 1][0]);
   std::array<cv::Mat1b, kLags> others;
-  for (std::size_t lag = 0; lag < kLags; ++lag) others[lag] = recent_[lag].second;
+  for (std::size_t lag = 0; lag < kLags; ++lag) others[lag] = recent_[lag][1];
   std::vector<Fits> all(pieces.size());
   tbb::parallel_for(std::size_t{0}, pieces.size(),
                     [&](std::size_t i) { all[i] = fits_of(now, pieces[i], others, disparity_); });

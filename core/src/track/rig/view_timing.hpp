@@ -1,7 +1,6 @@
 #pragma once
 
 #include <deque>
-#include <opencv2/core/mat.hpp>
 #include <optional>
 
 #include "base/exported.hpp"
@@ -39,15 +38,11 @@ class ViewTiming {
   int told() const { return told_; }
 
  private:
-  struct Pictures {
-    cv::Mat1b first, second;
-  };
-
   /// Returns the median of the last frames that told something, if all but some are near it.
   std::optional<double> agreed(std::size_t count, std::size_t wrong) const;
 
   double disparity_;
-  std::deque<Pictures> recent_;
+  std::deque<GreyPair> recent_;
   std::deque<Peak> found_;  ///< by the last frames that told something
   int taken_ = 0, told_ = 0;
 };
