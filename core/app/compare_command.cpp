@@ -191,8 +191,8 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
   command.add("--gpus", &options->gpus,
               "GPUs to share the runs among: all, auto (all that answer), or numbers as 0,2");
   command.add("--pictures", &options->pictures,
-              "Format of the study's recordings: png, or bmp, which is larger and read at once",
-              {.show_default = true, .check = one_of({"png", "bmp"})});
+              "Format of the study's recordings: png, or ppm, which is larger and read at once",
+              {.show_default = true, .check = one_of({"png", "ppm"})});
   command.add("--shard", &options->shard,
               "Make a part of the runs: i/n, for one of n machines that share the folder");
   command.add("--time-limit", &options->time_limit_s,

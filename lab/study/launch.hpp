@@ -20,7 +20,7 @@ struct Launch {
   int jobs = 1;                                    ///< runs at the same time
   double time_limit_s = 0;                         ///< of a run; 0: none
   int threads = 1;                                 ///< threads of each run
-  std::string pictures = "png";                    ///< format of recordings: png or bmp
+  std::string pictures = "png";                    ///< format of recordings: png or ppm
   std::vector<int> gpus = {};                      ///< for all runs; empty: each takes its scene's
 };
 

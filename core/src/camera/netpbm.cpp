@@ -54,17 +54,25 @@ cv::Mat decode_netpbm(const Netpbm& header) {
   const bool wide = header.largest > 255, color = header.kind == '6';
   const std::uint64_t values = header.width * header.height * (color ? 3 : 1);
   if (values == 0 || header.is_cut_off()) return {};
-  cv::Mat out(static_cast<int>(header.height), static_cast<int>(header.width),
-              CV_MAKETYPE(wide ? CV_16U : CV_8U, color ? 3 : 1));
-  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(header.pixels[i]); };
-  for (std::size_t i = 0; i < values; ++i) {
-    if (wide)
-      out.ptr<std::uint16_t>()[i] = static_cast<std::uint16_t>(at(2 * i) << 8 | at(2 * i + 1));
-    else
-      out.ptr<std::uint8_t>()[i] = at(i);
+  const int rows = static_cast<int>(header.height), columns = static_cast<int>(header.width);
+  const int channels = color ? 3 : 1;
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(header.pixels.data());
+  cv::Mat out;
+  if (wide) {
+    out.create(rows, columns, CV_16UC(channels));
+    auto* to = out.ptr<std::uint16_t>();
+    for (std::uint64_t i = 0; i < values; ++i, bytes += 2)
+      to[i] = static_cast<std::uint16_t>(bytes[0] << 8 | bytes[1]);
+    if (color) cv::cvtColor(out, out, cv::COLOR_RGB2BGR);
+    return out;
   }
-  if (!wide && header.largest != 255) out.convertTo(out, -1, 255.0 / header.largest);
-  if (color) cv::cvtColor(out, out, cv::COLOR_RGB2BGR);
+  const cv::Mat stored(rows, columns, CV_8UC(channels), const_cast<std::uint8_t*>(bytes));
+  if (color) {
+    cv::cvtColor(stored, out, cv::COLOR_RGB2BGR);
+  } else {
+    out = stored.clone();
+  }
+  if (header.largest != 255) out.convertTo(out, -1, 255.0 / header.largest);
   return out;
 }
 

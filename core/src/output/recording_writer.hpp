@@ -20,13 +20,13 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Format of a recording's colour pictures: lossless, JPEG of quality 95, or uncompressed as masks
-/// are then, too.
-enum class PictureFormat { png, jpeg, bmp };
+/// Format of a recording's colour pictures: lossless, JPEG of quality 95, or Netpbm, uncompressed
+/// as masks and depths are then, too.
+enum class PictureFormat { png, jpeg, ppm };
 
 /// Writes the frames of one or two cameras as a folder that the `image_sequence` source reads.
 ///
-/// Images: left_000000.png, right_000000.png (or .jpg, .bmp), masks (left_mask_000000.png) and
+/// Images: left_000000.png, right_000000.png (or .jpg, .ppm), masks (left_mask_000000.png) and
 /// depths (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are
 /// some. Also times.csv if frames have stamps or are not evenly spaced in time; calibration.yaml;
 /// scene.yaml, which tracks the recording; source.yaml, the recorded scene; start_NAME, files of
@@ -36,10 +36,10 @@ class RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (OpenedScene::resolved), whose source is replaced. Throws
   /// OutputError if the folder exists and is not empty or cannot be made, DataError unless there
-  /// are one or two cameras.
+  /// are one or two cameras. `threads`: of ImageWriter.
   RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
                   std::string scene_yaml, std::filesystem::path directory,
-                  PictureFormat format = PictureFormat::png);
+                  PictureFormat format = PictureFormat::png, int threads = 0);
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
@@ -97,7 +97,8 @@ class RecordingWriter {
   std::vector<double> times_;                         ///< of the frames from first_ to last_
   std::vector<std::int64_t> stamps_;                  ///< of the same frames
   bool stamped_ = true;                               ///< all have Frame::stamp, and it grows
-  std::optional<ImageWriter> images_{std::in_place};  ///< ends before the folder
+  int threads_;
+  std::optional<ImageWriter> images_;  ///< ends before the folder
 };
 
 /// Returns a calibration in the project's own form (calibration.hpp, form 3). load_calibration()

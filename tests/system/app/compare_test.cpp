@@ -122,10 +122,10 @@ TEST_F(CompareTest, RecordedSourcesAreMadeOnceForAllRuns) {
 TEST_F(CompareTest, UncompressedRecordingsGiveTheSameTables) {
   const std::string text = study() + "recordings: true\nredraw: nothing\n";
   ASSERT_EQ(compare(text, "a").exit_code, 0);
-  const Outcome outcome = compare(text, "b", {"--pictures", "bmp"});
+  const Outcome outcome = compare(text, "b", {"--pictures", "ppm"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto recording = path("b/recordings") / names_in(path("b/recordings")).front();
-  EXPECT_TRUE(std::filesystem::exists(recording / "recording/left_000000.bmp"));
+  EXPECT_TRUE(std::filesystem::exists(recording / "recording/left_000000.ppm"));
   EXPECT_FALSE(std::filesystem::exists(recording / "recording/left_000000.png"));
   EXPECT_EQ(table("results.csv", "a"), table("results.csv", "b"));
 }
