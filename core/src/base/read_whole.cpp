@@ -1,13 +1,16 @@
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <memory>
 #include <system_error>
+#include <utility>
 
+#include "base/file_bytes.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
-std::optional<std::string> read_whole(const std::filesystem::path& file) {
+std::optional<FileBytes> read_bytes(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
                                                            &std::fclose);
   if (!in) {
@@ -17,21 +20,29 @@ std::optional<std::string> read_whole(const std::filesystem::path& file) {
                               file.string() + ": cannot be opened");
     return std::nullopt;
   }
-  std::string bytes;
   std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  const std::uintmax_t expected = std::filesystem::file_size(file, error);
   // One byte more than the file has shows its end. Pipes have no size, and files may grow.
-  std::size_t room = error ? 4096 : size + 1;
+  std::size_t room = error ? 4096 : expected + 1;
+  FileBytes bytes{std::make_unique_for_overwrite<char[]>(room)};
   while (true) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + room);
-    const std::size_t read = std::fread(bytes.data() + before, 1, room, in.get());
-    bytes.resize(before + read);
-    if (read < room) break;
-    room = bytes.size();
+    bytes.size += std::fread(bytes.memory.get() + bytes.size, 1, room - bytes.size, in.get());
+    if (bytes.size < room) break;
+    room *= 2;
+    auto larger = std::make_unique_for_overwrite<char[]>(room);
+    std::copy_n(bytes.memory.get(), bytes.size, larger.get());
+    bytes.memory = std::move(larger);
   }
   if (std::ferror(in.get()) != 0) return std::nullopt;
   return bytes;
+}
+
+}  // namespace internal
+
+std::optional<std::string> read_whole(const std::filesystem::path& file) {
+  const std::optional<FileBytes> bytes = read_bytes(file);
+  if (!bytes) return std::nullopt;
+  return std::string(bytes->view());
 }
 
 }  // namespace hypotrack

@@ -10,7 +10,6 @@
 #include "camera/orientation.hpp"
 #include "camera/picture_header.hpp"
 #include "hypotrack/media.hpp"
-#include "hypotrack/text_file.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -26,44 +25,44 @@ bool is_truncated(std::string_view all) {
 }
 
 /// Decodes bytes of a picture; returns an empty image if they are damaged.
-cv::Mat decode(std::string& bytes, const std::optional<Netpbm>& netpbm) {
+cv::Mat decode(FileBytes& bytes, const std::optional<Netpbm>& netpbm) {
   if (netpbm && (netpbm->kind == '5' || netpbm->kind == '6')) return decode_netpbm(*netpbm);
-  if (netpbm) bytes += '\n';  // OpenCV needs it behind a number
-  const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
+  if (netpbm) bytes.memory[bytes.size++] = '\n';  // OpenCV needs it behind a number
+  const cv::Mat raw(1, static_cast<int>(bytes.size), CV_8UC1, bytes.memory.get());
   return decode_image(raw, cv::IMREAD_UNCHANGED);
 }
 
 }  // namespace
 
-std::string read_picture_bytes(const std::filesystem::path& file, std::string& bytes) {
+std::string read_picture_bytes(const std::filesystem::path& file, FileBytes& bytes) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return "is missing";
   if (!std::filesystem::is_regular_file(file, error)) return "is no file";
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > kLargestImageFile) return "is larger than 512 MiB";
-  std::optional<std::string> all = read_whole(file);
+  std::optional<FileBytes> all = read_bytes(file);
   if (!all) return "cannot be read; check its permissions";
-  if (all->empty()) return "is empty";
-  if (is_truncated(*all)) return "is cut off before its end";
-  bytes = std::move(*all);
-  if (std::string problem = problem_of_size(bytes); !problem.empty()) return problem;
-  const std::optional<Netpbm> netpbm = netpbm_of(bytes);
+  if (all->size == 0) return "is empty";
+  if (is_truncated(all->view())) return "is cut off before its end";
+  bytes = *std::move(all);
+  if (std::string problem = problem_of_size(bytes.view()); !problem.empty()) return problem;
+  const std::optional<Netpbm> netpbm = netpbm_of(bytes.view());
   return netpbm && netpbm->is_cut_off() ? "is cut off before its end" : "";
 }
 
 DecodedFile decode_upright(const std::filesystem::path& file) {
   DecodedFile read;
-  std::string all;
+  FileBytes all;
   if (const std::string problem = read_picture_bytes(file, all); !problem.empty()) {
     read.problem = fmt::format("{}: {}", file.string(), problem);
     return read;
   }
-  const std::optional<Netpbm> netpbm = netpbm_of(all);
+  const std::optional<Netpbm> netpbm = netpbm_of(all.view());
   if (netpbm) read.white = netpbm->largest;
-  const UnreadFormat unread = unread_format(all);
+  const UnreadFormat unread = unread_format(all.view());
   try {
     if (!unread.misread) read.image = decode(all, netpbm);
-    if (!read.image.empty()) turn_upright(read.image, all);
+    if (!read.image.empty()) turn_upright(read.image, all.view());
   } catch (const cv::Exception& e) {
     if (e.code == cv::Error::StsNoMem) throw;
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines
@@ -79,8 +78,8 @@ DecodedFile decode_upright(const std::filesystem::path& file) {
 }
 
 int file_orientation(const std::filesystem::path& file) {
-  std::string bytes;
-  return read_picture_bytes(file, bytes).empty() ? orientation_of(bytes) : 0;
+  FileBytes bytes;
+  return read_picture_bytes(file, bytes).empty() ? orientation_of(bytes.view()) : 0;
 }
 
 }  // namespace hypotrack::internal

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/exported.hpp"
+#include "base/file_bytes.hpp"
 #include "hypotrack/image_file.hpp"
 
 namespace hypotrack {
@@ -31,7 +32,7 @@ struct DecodedFile : ReadImage {
 DecodedFile decode_upright(const std::filesystem::path& file);
 
 /// Reads a file's bytes. Returns a problem if they are none of a whole picture.
-std::string read_picture_bytes(const std::filesystem::path& file, std::string& bytes);
+std::string read_picture_bytes(const std::filesystem::path& file, FileBytes& bytes);
 
 /// Returns the orientation_of() a file; 0 if it cannot be read.
 int file_orientation(const std::filesystem::path& file);

@@ -138,13 +138,13 @@ std::string note_on(std::string_view bytes) {
 template <class NoteOn>
 std::string note_on_first(std::span<const std::filesystem::path> files, const NoteOn& note_of) {
   for (const std::filesystem::path& file : files) {
-    std::string bytes;
+    FileBytes bytes;
     try {
       if (!read_picture_bytes(file, bytes).empty()) continue;
     } catch (const std::exception&) {  // memory; the frame says so
       return {};
     }
-    const std::string note = note_of(bytes);
+    const std::string note = note_of(bytes.view());
     return note.empty() ? "" : fmt::format("{}: {}", file.string(), note);
   }
   return {};
@@ -157,7 +157,7 @@ std::string contents_note(std::span<const std::filesystem::path> files) {
 }
 
 std::string mask_note(std::span<const std::filesystem::path> files) {
-  return note_on_first(files, [](const std::string& bytes) {
+  return note_on_first(files, [](std::string_view bytes) {
     return bytes.starts_with("\xFF\xD8\xFF")
                ? "is a JPEG file, whose black is inexact: pixels beside the foreground count as "
                  "foreground; write masks as PNG"
