@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -122,6 +123,22 @@ TEST(Synthetic, PutsAPictureUprightOnTheWall) {
   EXPECT_EQ(left.at<cv::Vec3b>(10, 10), cv::Vec3b(200, 0, 0));
   EXPECT_EQ(left.at<cv::Vec3b>(10, 310), cv::Vec3b(0, 0, 200));
   EXPECT_EQ(left.at<cv::Vec3b>(190, 310), cv::Vec3b(0, 200, 0));
+}
+
+TEST(Synthetic, ClipsNoiseAtBlackAndWhite) {
+  for (const int level : {2, 253}) {
+    const std::string yaml = fmt::format(
+        "{}{}background: {{kind: color, color: [{}, 128, 128]}}\nsensor: {{noise_sigma: 20}}\n"
+        "frames: 1\n",
+        kCameras, kMotion, level);
+    cv::Mat red;
+    cv::extractChannel(load(yaml).frames()[0].views[0].color, red, 2);
+    const cv::Mat corner = red(cv::Rect(0, 0, 60, 200));  // background only
+    const cv::Mat wrapped = level < 128 ? corner > 128 : corner < 128;
+    EXPECT_EQ(cv::countNonZero(wrapped), 0) << level;
+    const int end = level < 128 ? 0 : 255;
+    EXPECT_GT(cv::countNonZero(corner == end), 4000) << level;
+  }
 }
 
 TEST(Synthetic, ChangesTheColoursOfOneCamera) {
