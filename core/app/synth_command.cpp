@@ -32,7 +32,8 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
   for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   RecordingWriter writer(*session.scene, session.source->cameras(), session.source->frame_rate(),
                          session.resolved, options.out,
-                         options.format == "bmp" ? PictureFormat::bmp : PictureFormat::png);
+                         options.format == "ppm" ? PictureFormat::ppm : PictureFormat::png,
+                         session.parts.evaluate.threads);
   writer.copy_start(session.init);
   InterruptGuard interrupt;
   {
@@ -70,8 +71,8 @@ void add_synth_command(const Command& root, CommonOptions& common, int& exit_cod
   command.add("--frames", &options->frames, "Stop after this many frames",
               {.check = whole_number(1)});
   command.add("--format", &options->format,
-              "Pictures: png, or bmp, which is larger and read at once",
-              {.show_default = true, .check = one_of({"png", "bmp"})});
+              "Pictures: png, or ppm, which is larger and read at once",
+              {.show_default = true, .check = one_of({"png", "ppm"})});
   command.on_call([=, &common, &exit_code] { exit_code = synth(*options, common); });
 }
 

@@ -12,6 +12,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <opencv2/core/utility.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -71,6 +72,7 @@ class Worker {
 
   void serve() {
     keep_freed_memory();
+    cv::setNumThreads(1);  // its threads are one per core, whatever the runs' own may be
     if (!take_gpu()) return;
     keep_imported_meshes();
     LineBuffer lines;

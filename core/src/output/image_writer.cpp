@@ -1,6 +1,7 @@
 #include "output/image_writer.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 #include <atomic>
@@ -48,6 +49,13 @@ void write_picture(const std::filesystem::path& file, const cv::Mat& image,
 }
 
 struct ImageWriter::Impl {
+  explicit Impl(int threads)
+      : arena(threads > 0 ? threads + 1 : oneapi::tbb::task_arena::automatic) {}
+
+  void wait() {
+    arena.execute([&] { tasks.wait(); });
+  }
+
   void write_now(const std::filesystem::path& file, const cv::Mat& image) {
     if (stopped) return;
     try {
@@ -69,14 +77,15 @@ struct ImageWriter::Impl {
   std::atomic<bool> stopped = false;
   std::mutex mutex;
   std::exception_ptr error;  // the first; guarded by the mutex
+  oneapi::tbb::task_arena arena;
   oneapi::tbb::task_group tasks;
 };
 
-ImageWriter::ImageWriter() : impl_(std::make_unique<Impl>()) {}
+ImageWriter::ImageWriter(int threads) : impl_(std::make_unique<Impl>(threads)) {}
 
 ImageWriter::~ImageWriter() {
   impl_->stopped = true;
-  impl_->tasks.wait();
+  impl_->wait();
 }
 
 void ImageWriter::write(std::filesystem::path file, cv::Mat image) {
@@ -87,14 +96,16 @@ void ImageWriter::write(std::filesystem::path file, cv::Mat image) {
     return;
   }
   ++impl_->waiting;
-  impl_->tasks.run([impl = impl_.get(), file = std::move(file), image = std::move(image)] {
-    impl->write_now(file, image);
-    --impl->waiting;
+  impl_->arena.execute([&] {
+    impl_->tasks.run([impl = impl_.get(), file = std::move(file), image = std::move(image)] {
+      impl->write_now(file, image);
+      --impl->waiting;
+    });
   });
 }
 
 void ImageWriter::wait() {
-  impl_->tasks.wait();
+  impl_->wait();
   impl_->rethrow();
 }
 

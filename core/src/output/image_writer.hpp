@@ -14,11 +14,12 @@ inline namespace HYPOTRACK_EXPORTED internal {
 void write_picture(const std::filesystem::path& file, const cv::Mat& image,
                    const std::vector<int>& parameters);
 
-/// Writes PNG or JPEG files on all cores while the caller goes on. The files do not depend on the
+/// Writes image files in other threads while the caller goes on. The files do not depend on the
 /// threads' timing.
 class ImageWriter {
  public:
-  ImageWriter();
+  /// `threads`: beside the caller's; 0: one per core.
+  explicit ImageWriter(int threads);
   /// Finishes the files that are begun and drops waiting ones.
   ~ImageWriter();
   ImageWriter(const ImageWriter&) = delete;

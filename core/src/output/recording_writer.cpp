@@ -33,13 +33,15 @@ cv::Mat stored_depth(const cv::Mat& depth) {
 
 RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
                                  std::string scene_yaml, std::filesystem::path directory,
-                                 PictureFormat format)
+                                 PictureFormat format, int threads)
     : scene_(&scene),
       cameras_(std::move(cameras)),
       frame_rate_(frame_rate),
       scene_yaml_(std::move(scene_yaml)),
       format_(format),
-      folder_(std::move(directory)) {
+      folder_(std::move(directory)),
+      threads_(threads) {
+  images_.emplace(threads_);
   if (cameras_.empty() || cameras_.size() > 2)
     throw DataError(
         fmt::format("a recording has one or two cameras, this source has {}", cameras_.size()));
@@ -71,7 +73,7 @@ void RecordingWriter::drop_last() {
 }
 
 int RecordingWriter::finish_after_error() {
-  images_.emplace();  // drops the images that wait
+  images_.emplace(threads_);  // drops the images that wait
   const auto is_whole = [](const std::filesystem::path& file) {
     return std::filesystem::exists(file);
   };
@@ -148,14 +150,14 @@ void RecordingWriter::add_pictures(const Frame& frame) {
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const View& view = frame.views[i];
     const std::string side = i == 0 ? "left" : "right";
-    const char* const lossless = format_ == PictureFormat::bmp ? ".bmp" : ".png";
-    const char* const extension = format_ == PictureFormat::jpeg ? ".jpg" : lossless;
-    if (!view.color.empty()) write_image(side, frame.index, view.color, extension);
-    if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask, lossless);
-    if (!view.depth.empty()) {
-      const char* const deep = format_ == PictureFormat::bmp ? ".pgm" : ".png";
-      write_image(side + "_depth", frame.index, stored_depth(view.depth), deep);
-    }
+    const char* const color = format_ == PictureFormat::jpeg  ? ".jpg"
+                              : format_ == PictureFormat::ppm ? ".ppm"
+                                                              : ".png";
+    const char* const grey = format_ == PictureFormat::ppm ? ".pgm" : ".png";
+    if (!view.color.empty()) write_image(side, frame.index, view.color, color);
+    if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask, grey);
+    if (!view.depth.empty())
+      write_image(side + "_depth", frame.index, stored_depth(view.depth), grey);
   }
 }
 

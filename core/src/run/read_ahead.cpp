@@ -1,5 +1,7 @@
 #include "run/read_ahead.hpp"
 
+#include <oneapi/tbb/task_arena.h>
+
 #include <chrono>
 #include <utility>
 
@@ -10,10 +12,12 @@ constexpr std::size_t kFramesAhead = 4;
 
 }  // namespace
 
-ReadAhead::ReadAhead(Source& source, std::optional<int> limit)
+ReadAhead::ReadAhead(Source& source, std::optional<int> limit, int threads)
     : source_(&source), items_(kFramesAhead) {
   if (source.live()) return;
-  thread_ = std::jthread([this, limit](const std::stop_token& stop) { read(stop, limit); });
+  thread_ = std::jthread([this, limit, threads](const std::stop_token& stop) {
+    tbb::task_arena(threads).execute([&] { read(stop, limit); });
+  });
 }
 
 std::optional<Frame> ReadAhead::timed_next() {

@@ -16,8 +16,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// source is asked in the caller's thread: frames read ahead would be old.
 class ReadAhead {
  public:
-  /// Reads up to `limit` frames. The source must outlive the object.
-  ReadAhead(Source& source, std::optional<int> limit);
+  /// Reads up to `limit` frames by up to `threads` threads. The source must outlive the object.
+  ReadAhead(Source& source, std::optional<int> limit, int threads);
   /// Waits for the frame that is being read.
   ~ReadAhead() = default;
   ReadAhead(const ReadAhead&) = delete;

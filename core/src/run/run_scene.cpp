@@ -142,7 +142,7 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
   const int read = static_cast<int>(first.size());
-  ReadAhead rest(source, limit ? std::optional(*limit - read) : std::nullopt);
+  ReadAhead rest(source, limit ? std::optional(*limit - read) : std::nullopt, tracker.threads());
   for (int done = 0; !limit || done < *limit; ++done) {
     if (latch.stopped()) return false;
     if (searches_anew && searches_anew()) tracker.search_anew();

@@ -25,7 +25,7 @@ TEST(ImageWriter, WritesEveryImageAsItIs) {
   const std::vector<int> types = {CV_8UC3, CV_8UC1, CV_16UC1};
   constexpr int kImages = 90;  // more than may wait
   const auto file = [&](int i) { return folder.path() / (std::to_string(i) + ".png"); };
-  ImageWriter writer;
+  ImageWriter writer(2);
   for (int i = 0; i < kImages; ++i) writer.write(file(i), random_image(types[i % 3], i));
   writer.wait();
   for (int i = 0; i < kImages; ++i) {
@@ -38,7 +38,7 @@ TEST(ImageWriter, WritesEveryImageAsItIs) {
 
 TEST(ImageWriter, ReportsTheImageThatCouldNotBeWrittenAndStops) {
   const TemporaryDirectory folder;
-  ImageWriter writer;
+  ImageWriter writer(2);
   writer.write(folder.path() / "missing" / "a.png", random_image(CV_8UC3, 1));
   try {
     writer.wait();
@@ -54,7 +54,7 @@ TEST(ImageWriter, LeavesNoHalfFileWhenItIsDropped) {
   const TemporaryDirectory folder;
   constexpr int kImages = 20;
   {
-    ImageWriter writer;
+    ImageWriter writer(2);
     for (int i = 0; i < kImages; ++i) {
       writer.write(folder.path() / (std::to_string(i) + ".png"), random_image(CV_8UC3, i));
     }

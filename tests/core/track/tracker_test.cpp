@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
 #include <limits>
@@ -25,6 +26,7 @@ class MovingTarget final : public Objective, public ResidualTerm {
   void prepare(const Observation& observation) override {
     x_ = 0.005 * observation.frame;
     observed.push_back({observation.context.start_is_guess, observation.start});
+    most_threads = tbb::this_task_arena::max_concurrency();
   }
   double cost(const RenderedHypothesis& h) const override {
     if (infeasible) return std::numeric_limits<double>::infinity();
@@ -37,6 +39,7 @@ class MovingTarget final : public Objective, public ResidualTerm {
     residuals[0] -= static_cast<float>(x_);
     residuals[2] -= 0.5F;
   }
+  int most_threads = 0;
   bool infeasible = false;
   bool offers_residuals = true;
 
@@ -90,6 +93,7 @@ struct TrackedBox {
   OneEuroSettings one_euro;
   StatusSettings status;
   bool needs_device = false;
+  int threads = 1;
 
   Eigen::VectorXd start() const {
     Eigen::VectorXd state = scene.rest_state();
@@ -107,7 +111,7 @@ struct TrackedBox {
     optimizer->needs_device = needs_device;
     parts.optimizer = std::move(sampling);
     parts.objective = {{1.0, target}};
-    parts.evaluate.threads = 1;
+    parts.evaluate.threads = threads;
     parts.budget.evaluations = evaluations;
     parts.search = search;
     parts.one_euro = one_euro;
@@ -403,6 +407,15 @@ TEST(Tracker, RefusesAnAnswerThatIsNoNumber) {
         test::message_of<PluginError>([&] { tracker.track(grey_frame(1)); });
     EXPECT_NE(message.find("this is a bug in the optimizer"), std::string::npos) << message;
     EXPECT_EQ(message.find("cost nan") != std::string::npos, as_cost) << message;
+  }
+}
+
+TEST(Tracker, UsesNoMoreThreadsThanTheSettingsSay) {
+  for (const int threads : {1, 3}) {
+    TrackedBox fixture;
+    fixture.threads = threads;
+    fixture.make(1).track(grey_frame(0));
+    EXPECT_EQ(fixture.target->most_threads, threads);
   }
 }
 

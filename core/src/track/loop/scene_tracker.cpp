@@ -28,6 +28,10 @@ void naming(const Frame& frame, const Function& function) {
   }
 }
 
+int arena_size(const EvaluateSettings& settings) {
+  return settings.threads > 0 ? settings.threads : tbb::task_arena::automatic;
+}
+
 }  // namespace
 
 SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start,
@@ -35,12 +39,22 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
     : loop_(scene, parts, std::move(start), seed),
       terms_(parts.objective),
       pictures_(parts.cameras, terms_, loop_.settings.check_pictures && look_at_pictures(terms_)),
-      judge_(loop_) {
+      judge_(loop_),
+      arena_(arena_size(parts.evaluate)),
+      background_arena_(arena_size(parts.evaluate)) {
   check_looking(parts, loop_.recovers());
   reserve_evaluations(parts.fixed_lag, judge_.evaluations(), loop_.finder.budget());
 }
 
+SceneTracker::~SceneTracker() = default;
+
+int SceneTracker::threads() const { return arena_.max_concurrency(); }
+
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
+  return arena_.execute([&] { return track_here(frame, record, trace); });
+}
+
+Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
   const ProfiledPart part("frame");
   Solution solution = judge_.unjudged(frame);
   if (!frame.views.empty()) {
@@ -103,7 +117,8 @@ void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* re
 void SceneTracker::find_in_background(const Frame& frame, const RecoveryRequest& request,
                                       const Candidate& best, Solution& solution) {
   background_.start(frame, [this, request, found = best](const Frame& copy) mutable {
-    loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7));
+    background_arena_.execute(
+        [&] { loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7)); });
     return found;
   });
   stay_lost(frame, solution);

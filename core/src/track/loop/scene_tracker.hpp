@@ -1,5 +1,7 @@
 #pragma once
 
+#include <oneapi/tbb/task_arena.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
@@ -28,12 +30,14 @@ class SceneTracker {
   /// `parts.begins_by_looking`, any state in view. Equal seeds and input give
   /// equal solutions, except with recovery in the background. The scene must outlive the tracker.
   SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
+  ~SceneTracker();
   SceneTracker(const SceneTracker&) = delete;
   SceneTracker& operator=(const SceneTracker&) = delete;
 
   /// Finds the scene in the next frame. `record`, if given, receives how, and `trace` how the
-  /// searches converged. Both stay empty while a search runs in the background. Throws Stopped by
-  /// check_stop(); the tracker can go on with the next frame.
+  /// searches converged. Both stay empty while a search runs in the background. Loops but
+  /// those of OpenCV use at most the threads of EvaluateSettings. Throws Stopped by check_stop();
+  /// the tracker can go on with the next frame.
   Solution track(const Frame& frame, SearchRecord* record = nullptr, FrameTrace* trace = nullptr);
 
   /// Forgets where the models are: the next frame looks for them again. Without recovery the search
@@ -60,12 +64,15 @@ class SceneTracker {
 
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_rig_notes() { return pictures_.take_notes(); }
+  /// Returns the number of threads that it may use.
+  int threads() const;
   /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const { return loop_.finder.search().cost().backend(); }
   /// Returns the error after which the CPU took the place of a device; empty: there was none.
   const std::string& device_error() const { return loop_.finder.search().device_error(); }
 
  private:
+  Solution track_here(const Frame& frame, SearchRecord* record, FrameTrace* trace);
   /// Calls find(), again on the CPU if the device failed and the settings ask for that.
   void find_or_leave_device(const Frame& frame, Solution& solution, SearchRecord* record,
                             FrameTrace* trace);
@@ -85,7 +92,8 @@ class SceneTracker {
   PictureWatch pictures_;
   FrameJudge judge_;
   RecoveryPlan plan_;
-  BackgroundSearch background_;  ///< ends before what it uses
+  tbb::task_arena arena_, background_arena_;  ///< of the threads that the settings allow
+  BackgroundSearch background_;               ///< ends before what it uses
 };
 
 }  // namespace internal
