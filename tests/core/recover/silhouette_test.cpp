@@ -5,6 +5,7 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
+#include "hypotrack/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
@@ -34,6 +35,20 @@ class SilhouetteTest : public testing::Test {
 TEST_F(SilhouetteTest, LiesWhereTheCameraSeesTheModel) {
   EXPECT_NEAR(center({true, false}).x, (319.5 - 100) / 4, 12);
   EXPECT_NEAR(center({false, true}).x, (319.5 + 100) / 4, 12);
+}
+
+TEST_F(SilhouetteTest, TrianglesOfTwoPixelsCoverTheirCorners) {
+  state_.segment<3>(0) << -0.05, 0.03, 30;  // metres
+  const cv::Mat1b drawn = silhouettes(scene_, {true, false}, state_, camera_, 1);
+  cv::Mat1b expected(drawn.size(), std::uint8_t{0});
+  const Scene::Item& box = scene_.items()[0];
+  const Eigen::Matrix3Xf vertices = posed_vertices(*box.model, scene_.part(box, state_));
+  for (const auto& vertex : vertices.colwise()) {
+    const Eigen::Vector2d at = project(camera_, vertex.cast<double>());
+    expected(cvRound(at.y()), cvRound(at.x())) = 255;
+  }
+  EXPECT_GT(cv::countNonZero(expected), 1);
+  EXPECT_EQ(cv::norm(drawn, expected, cv::NORM_INF), 0);
 }
 
 TEST_F(SilhouetteTest, NothingIsDrawnOfModelsThatAreNotAskedForOrBehind) {

@@ -7,6 +7,23 @@
 #include "hypotrack/kinematics.hpp"
 
 namespace hypotrack::internal {
+namespace {
+
+/// Fills a triangle. Those of fine meshes are mostly corners beside each other, for which
+/// cv::fillConvexPoly() takes ten times as long.
+void fill(const std::array<cv::Point, 3>& corners, cv::Mat1b& out) {
+  const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+  if (right - left > 1 || bottom - top > 1) {
+    cv::fillConvexPoly(out, corners.data(), 3, 255);
+    return;
+  }
+  const cv::Rect inside({}, out.size());
+  for (const cv::Point& corner : corners)
+    if (inside.contains(corner)) out(corner) = 255;
+}
+
+}  // namespace
 
 cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
                       const Eigen::VectorXd& state, const Camera& camera, int reduction) {
@@ -27,7 +44,7 @@ cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
         drawn = drawn && p.cwiseAbs().maxCoeff() < 1e4;  // false for NaN
         if (drawn) corners[static_cast<std::size_t>(i)] = {cvRound(p.x()), cvRound(p.y())};
       }
-      if (drawn) cv::fillConvexPoly(out, corners.data(), 3, 255);
+      if (drawn) fill(corners, out);
     }
   }
   return out;
