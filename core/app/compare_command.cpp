@@ -71,7 +71,10 @@ study::Launch launch_of(const CompareOptions& options, const CommonOptions& comm
   launch.pictures = options.pictures;
   const int cores = core_count();
   launch.jobs = options.jobs > 0 ? options.jobs : cores;
-  launch.threads = options.threads > 0 ? options.threads : std::max(1, cores / launch.jobs);
+  // A run on a GPU has threads of its own that read and write, too.
+  const int per_run = cores / (options.gpus ? 2 * launch.jobs : launch.jobs);
+  launch.threads = options.threads > 0 ? options.threads : std::max(1, per_run);
+  launch.spare_cores = std::max(0, cores - launch.jobs * launch.threads);
   return launch;
 }
 
@@ -186,7 +189,8 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
   command.add("--variant", &options->variant, "Variant of the study, for example quick");
   command.add("--jobs", &options->jobs, "Runs at a time (default: one per core)",
               {.check = whole_number(1)});
-  command.add("--threads", &options->threads, "Threads of each run (default: cores / jobs)",
+  command.add("--threads", &options->threads,
+              "Threads of each run (default: cores / jobs, half of that on GPUs)",
               {.check = whole_number(1)});
   command.add("--gpus", &options->gpus,
               "GPUs to share the runs among: all, auto (all that answer), or numbers as 0,2");

@@ -12,6 +12,7 @@
 
 #include "hypotrack/error.hpp"
 #include "lab/study/recordings.hpp"
+#include "lab/study/run_order.hpp"
 #include "run/crew/failure_message.hpp"
 
 namespace hypotrack::study::internal {
@@ -35,7 +36,10 @@ class Execution {
         gpus_(gpus),
         crew_(crew),
         watcher_(watcher),
-        recordings_(folder, plan, runs, launch) {
+        recordings_(folder, plan, runs, launch),
+        order_(plan),
+        jobs_(static_cast<std::size_t>(launch.jobs)),
+        most_beside_(std::min(static_cast<std::size_t>(launch.spare_cores), jobs_ / kShareAhead)) {
     for (const std::size_t run : runs) waiting_.push_back({run, {}, folder_.state(plan.runs[run])});
   }
 
@@ -69,7 +73,9 @@ class Execution {
 
   bool go_on_recording();
   bool start_next();
+  std::deque<Waiting>::iterator next_run();
   std::size_t room() const;
+  std::size_t beside() const;
   void start(std::size_t run, RunFolder folder);
   bool finish(const Ended& ended);
 
@@ -82,25 +88,30 @@ class Execution {
   std::deque<Waiting> waiting_;
   std::map<std::size_t, RunFolder> working_;
   Recordings recordings_;
+  RunOrder order_;
+  std::size_t jobs_;
+  std::size_t most_beside_;     ///< recordings on cores that no run uses
   bool idle_ = false;           ///< jobs are left that no run could take
   std::exception_ptr failure_;  ///< of a recording
 };
 
-/// Returns how many runs or recordings may begin now.
+/// Returns how many runs or recordings may begin now in place of each other.
 std::size_t Execution::room() const {
-  const std::size_t busy = crew_.size() + recordings_.size();
-  const auto jobs = static_cast<std::size_t>(launch_.jobs);
-  return jobs > busy ? jobs - busy : 0;
+  const std::size_t busy = crew_.size() + recordings_.size() - beside();
+  return jobs_ > busy ? jobs_ - busy : 0;
 }
+
+/// Returns the number of recordings that are made on cores that no run uses.
+std::size_t Execution::beside() const { return std::min(most_beside_, recordings_.size()); }
 
 /// Makes recordings: first those that the next run waits for, then a few ahead, so that they are
 /// there when their runs begin. Returns false if nothing happened.
 bool Execution::go_on_recording() {
   if (waiting_.empty() || failure_) return false;
   const auto next = std::ranges::min(waiting_, {}, &Waiting::run).run;
-  const auto jobs = static_cast<std::size_t>(launch_.jobs);
   try {
-    return recordings_.go_on(next, room(), idle_ ? jobs : jobs / kShareAhead);
+    return recordings_.go_on(next, room() + most_beside_ - beside(),
+                             idle_ ? jobs_ : jobs_ / kShareAhead);
   } catch (const DataError& error) {
     failure_ = std::current_exception();  // to be thrown when the runs that have begun have ended
     if (!working_.empty()) watcher_.say(fmt::format("failed: {}", error.what()));
@@ -108,21 +119,28 @@ bool Execution::go_on_recording() {
   }
 }
 
-/// Starts the first waiting run whose recording is there and that no other process makes. Returns
-/// false if nothing can start now.
+/// Returns the waiting run that is to begin, of those whose recordings are there; end(): none.
+std::deque<Execution::Waiting>::iterator Execution::next_run() {
+  const auto now = Clock::now();
+  std::vector<std::size_t> ready;
+  for (const Waiting& each : waiting_)
+    if (each.retry <= now && recordings_.are_there_for(each.run)) ready.push_back(each.run);
+  if (ready.empty()) return waiting_.end();
+  std::ranges::sort(ready);  // runs that another process makes come back at the end
+  return std::ranges::find(waiting_, order_.next(ready), &Waiting::run);
+}
+
+/// Starts a waiting run that no other process makes. Returns false if nothing can start now.
 bool Execution::start_next() {
   if (room() == 0) return false;
-  const auto now = Clock::now();
-  const auto it = std::ranges::find_if(waiting_, [&](const Waiting& each) {
-    return each.retry <= now && recordings_.are_there_for(each.run);
-  });
+  const auto it = next_run();
   if (it == waiting_.end()) return false;
   Waiting next = *it;
   waiting_.erase(it);
   const PlannedRun& run = plan_.runs[next.run];
   auto claimed = folder_.claim(run);
   if (!claimed) {
-    next.retry = now + kRetry;
+    next.retry = Clock::now() + kRetry;
     waiting_.push_back(next);
     return true;
   }
@@ -155,6 +173,7 @@ bool Execution::finish(const Ended& ended) {
   std::string failure;
   if (ended.end.code == 0 && folder.holds_a_complete_run()) {
     folder.finish(plan_, run, {ended.seconds, launch_.threads, ended.gpu});
+    order_.took(ended.key, ended.seconds);
   } else {
     failure = failure_message(folder.log(), ended);
     if (ended.end.code == kInterrupted && failure.starts_with("interrupted")) return false;

@@ -20,6 +20,7 @@ struct Launch {
   int jobs = 1;                                    ///< runs at the same time
   double time_limit_s = 0;                         ///< of a run; 0: none
   int threads = 1;                                 ///< threads of each run
+  int spare_cores = 0;                             ///< that no run uses
   std::string pictures = "png";                    ///< format of recordings: png or ppm
   std::vector<int> gpus = {};                      ///< for all runs; empty: each takes its scene's
 };

@@ -1,0 +1,46 @@
+#include "lab/study/run_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "study_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+/// Three cells, so that runs 0 to 2 are of the first seed and 3 to 5 of the second.
+class RunOrderTest : public StudyTest {
+ protected:
+  study::Plan plan_ = plan(
+      "title: t\nscenes: {box: {file: box.yaml}}\ngrid: {optimizer.particles: [4, 8, 16]}\n"
+      "seeds: 2");
+  study::RunOrder order_{plan_};
+};
+
+TEST_F(RunOrderTest, IsThatOfThePlanWhileNoTimeIsKnown) {
+  EXPECT_EQ(order_.next(std::array<std::size_t, 3>{1, 2, 3}), 1U);
+}
+
+TEST_F(RunOrderTest, BeginsWithTheCellThatTookLongest) {
+  order_.took(0, 1.0);
+  order_.took(1, 3.0);
+  order_.took(2, 2.0);
+  EXPECT_EQ(order_.next(std::array<std::size_t, 3>{3, 4, 5}), 4U);
+  EXPECT_EQ(order_.next(std::array<std::size_t, 2>{3, 5}), 5U);
+}
+
+TEST_F(RunOrderTest, BeginsWithCellsWithoutATime) {
+  order_.took(0, 1.0);
+  order_.took(2, 2.0);
+  EXPECT_EQ(order_.next(std::array<std::size_t, 3>{3, 4, 5}), 4U);
+}
+
+TEST_F(RunOrderTest, FinishesASeedBeforeTheNext) {
+  order_.took(0, 1.0);
+  order_.took(1, 3.0);
+  EXPECT_EQ(order_.next(std::array<std::size_t, 3>{0, 3, 4}), 0U);
+}
+
+}  // namespace
+}  // namespace hypotrack::test
