@@ -26,11 +26,11 @@ struct Click {
 /// Clicks into one frame of a source.
 struct ClickedFrame {
   std::vector<Click> clicks;
-  std::optional<int> frame;           ///< its index; nothing if the clicks were written by hand
+  std::optional<int> frame;           ///< its index; nothing if a person wrote the clicks
   std::vector<std::string> pictures;  ///< summaries() of it; empty: it may be any frame
 };
 
-/// Reads clicks: `clicks: [{landmark: wrist, left: [412, 300], right: [371, 301]}, ...]`, and
+/// Reads clicks: `clicks: [{landmark: lid, left: [412, 300], right: [371, 301]}, ...]`, and
 /// `frame` and `pictures` if they are given. Throws ConfigError with file:line:column.
 HYPOTRACK_API ClickedFrame read_clicks(const ConfigNode& node);
 /// Writes clicks as YAML, which read_clicks() reads back.

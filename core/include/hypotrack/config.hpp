@@ -36,9 +36,9 @@ class HYPOTRACK_API ConfigNode {
   /// `@FILE.yaml` stands for the value at the same path in the scene FILE, `@FILE.yaml#key.path`
   /// for the value at that path.
   /// `tracker: "@trackers/NAME"` adds the keys of a tracker file (docs/reference/scenes.md).
-  /// An override is `key.path=value`, with list items by index: `models.0.type=hand`. The value is
-  /// YAML; its relative paths refer to the working directory. Absent keys on the way are created,
-  /// and so is the item after a list's last one.
+  /// An override is `key.path=value`, with list items by index: `models.0.type=rigid_box`. The
+  /// value is YAML; its relative paths refer to the working directory. Absent keys on the way are
+  /// created, and so is the item after a list's last one.
   /// Throws ConfigError as load() does, and on overrides that do not parse or references that do
   /// not exist.
   /// Keys that have another place since version 0.2 are moved there; `notes` then gets a line.
@@ -90,8 +90,8 @@ class HYPOTRACK_API ConfigNode {
   bool is_plain() const;
 
   /// Returns where the node was written: `scene.yaml:12:5` (line and column from 1), the override
-  /// it comes from, `--set models.0.type=hand`, or its place in a document that a program made: `my
-  /// scene: models.0.type`.
+  /// it comes from, `--set models.0.type=rigid_box`, or its place in a document that a program
+  /// made: `my scene: models.0.type`.
   std::string where() const;
   /// Returns where a key of this map was written, or where() if there is no such key.
   std::string where_key(std::string_view key) const;

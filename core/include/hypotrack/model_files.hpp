@@ -9,7 +9,7 @@
 
 namespace hypotrack {
 
-/// Returns the name of an output's file for one model: `hand.bvh` for the model `hand` and the
+/// Returns the name of an output's file for one model: `box.bvh` for the model `box` and the
 /// extension `bvh`. Throws ConfigError, naming the model, if its name cannot be part of a file's:
 /// it holds a slash, a # or a control character.
 HYPOTRACK_API std::string model_file_name(const std::string& model, std::string_view extension);

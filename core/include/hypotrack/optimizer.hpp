@@ -120,7 +120,7 @@ class HYPOTRACK_API CostFunction {
 struct SearchGroup {
   enum class Kind {
     pose,  ///< position and rotation of a model
-    limb,  ///< a chain of joints, such as a finger
+    limb,  ///< a chain of joints, such as an arm
   };
   Kind kind = Kind::limb;
   std::vector<int> dimensions;

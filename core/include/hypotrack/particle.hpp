@@ -44,8 +44,7 @@ constexpr Motion moved(const Motion& from, const Constriction& constriction, dou
 }
 
 /// Periodic resampling of one limb in a share of the particles. Without it, the swarm collapses
-/// first in the many small dimensions. After Oikonomidis, Kyriazis and Argyros 2012, who resample
-/// fingers.
+/// first in the many small dimensions. After Oikonomidis, Kyriazis and Argyros 2012.
 struct LimbReset {
   int every = 0;       ///< generations; 0 = never
   double share = 0.5;  ///< share of the particles

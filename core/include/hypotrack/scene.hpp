@@ -12,7 +12,7 @@
 namespace hypotrack {
 
 /// The tracked models and their joint state. The state is the models' parameters one after the
-/// other: 27 for a hand, 34 for a hand and a rigid object, 54 for two hands.
+/// other: 7 for a rigid object, 35 for it and a model of 21 joint angles.
 class HYPOTRACK_API Scene {
  public:
   struct Item {

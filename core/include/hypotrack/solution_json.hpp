@@ -13,8 +13,8 @@ namespace hypotrack {
 /// Writes a solution as one line of JSON, without the line's end: frame, time, status, cost and by
 /// model its status, probability, parameters and landmarks.
 ///
-///   {"frame":0,"time":0.0,"status":"tracked","cost":0.2,"models":{"hand":{"status":"tracked",
-///    "probability":0.9,"parameters":{"position_x":0.1,...},"landmarks":{"wrist":[x,y,z],...}}}}
+///   {"frame":0,"time":0.0,"status":"tracked","cost":0.2,"models":{"box":{"status":"tracked",
+///    "probability":0.9,"parameters":{"position_x":0.1,...},"landmarks":{"lid":[x,y,z],...}}}}
 ///
 /// Metres, radians, world axes. Numbers read back bit for bit. NaN and infinity are null, and so
 /// are a status and a probability that the solution lacks. Bytes that are not UTF-8 are replaced.

@@ -20,7 +20,7 @@ struct StartParams : StartDistribution {
        .min = 0,
        .max = 10});
     v("group_share", group_share,
-      {.help = "share of the groups (a model's pose, a finger) that a first point moves by all of "
+      {.help = "share of the groups (a model's pose, a limb) that a first point moves by all of "
                "sigma; the others move by group_rest of it",
        .min = 0,
        .max = 1});

@@ -19,7 +19,7 @@
 //               known to be out of view
 //
 // The reader accepts any order of columns. Without `frame`, rows are frames 0, 1, 2, ...; `time` is
-// optional. A name may omit the model (`index_tip_x` for `hand.index_tip_x`) if only one model has
+// optional. A name may omit the model (`lid_x` for `box.lid_x`) if only one model has
 // it. The reader ignores blank lines, lines that begin with #, CRLF line ends, a byte order mark
 // and quotes around a cell. Rows are returned sorted by frame.
 

@@ -13,7 +13,7 @@
 
 namespace hypotrack {
 
-/// Tracks a scene through frames that the caller hands over. Session::tracker() makes one.
+/// Tracks a scene through frames that the caller passes. Session::tracker() makes one.
 ///
 /// Use one tracker per sequence of frames, from one thread at a time. It ignores fixed-lag
 /// smoothing (`smoothing.fixed_lag`), which only Session::run() does.

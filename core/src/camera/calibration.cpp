@@ -21,8 +21,8 @@ constexpr std::array<std::string_view, 3> kUnitNames = {"m", "cm", "mm"};
 constexpr std::array<std::string_view, 3> kModelNames = {"none", "brown", "fisheye"};
 constexpr std::array<double, 3> kMetresPerUnit = {1.0, 1e-2, 1e-3};
 
-// Plausible baselines for hand tracking. Closer cameras have no parallax; with cameras further
-// apart the hand is out of reach. Other values are almost always a wrong unit.
+// Plausible baselines of cameras before a table or a person. Closer ones have no parallax; those
+// further apart do not see one place well. Other values are almost always a wrong unit.
 constexpr double kNearestCameras = 0.005;  // metres
 constexpr double kFurthestCameras = 2.0;
 

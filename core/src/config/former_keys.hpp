@@ -42,7 +42,7 @@ std::optional<std::string> override_today(YamlNode& document, const std::string&
                                           std::vector<std::string>& notes);
 
 /// Rewrites the former keys in the text of a scene, tracker file or study; all else stays as it is,
-/// comments included. Throws ConfigError if the text is no YAML, or a key must be moved by hand.
+/// comments included. Throws ConfigError if the text is no YAML, or only its author can move a key.
 std::string migrate(const std::string& text, const std::string& name);
 
 }  // namespace internal

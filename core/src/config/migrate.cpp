@@ -43,7 +43,7 @@ class Migration {
   using Entry = YamlNode::Entry;
 
   [[noreturn]] void refuse(int line, int column, std::string_view why) const {
-    throw ConfigError(fmt::format("{}: {}; rewrite `tracker` by hand",
+    throw ConfigError(fmt::format("{}: {}; rewrite `tracker` yourself",
                                   describe_position(*origin_, line, column), why));
   }
   std::size_t at(const Entry& entry) const { return lines_.at(entry.line, entry.column); }
@@ -262,7 +262,7 @@ std::string migrate(const std::string& text, const std::string& name) {
   }
   if (now.empty() || (!before->find("scenes") && sorted_text(*before) != now))
     throw ConfigError(fmt::format(
-        "{}: its former keys cannot be rewritten without a change of meaning; do it by hand",
+        "{}: its former keys cannot be rewritten without a change of meaning; do it yourself",
         name));
   return out;
 }

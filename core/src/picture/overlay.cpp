@@ -33,7 +33,7 @@ void draw_contours(const cv::Mat& label, const cv::Rect& roi, int model, int thi
   cv::polylines(image, contours, true, color, thickness, cv::LINE_AA);
 }
 
-/// Darkens the rims where a part of a model occludes another part of it (finger before palm).
+/// Darkens the rims where a part of a model occludes another part of it.
 void draw_rims(const RenderedView& view, const cv::Rect& roi, cv::Mat& image) {
   constexpr float kJump = 0.006F;  // metres from pixel to pixel
   const auto jumps = [&](cv::Point a, cv::Point b) {

@@ -20,7 +20,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// ImageProblemParts::edge. Chosen on synthetic hands: fits that start at the truth stay there.
+// ImageProblemParts::edge. Chosen on synthetic recordings: fits that start at the truth stay there.
 constexpr double kEdge = 0.3;
 
 std::vector<std::string> overrides_of(const ShapeTargets& targets,
@@ -240,7 +240,7 @@ std::vector<std::string> warnings_of_bounds(const ShapeEstimate& estimate) {
       warnings.push_back(
           fmt::format("{} ends at {:.4f}, its {} bound being {:.4g}: nobody is built like that, so "
                       "the frames do not show it or were not tracked (look at the overlay of a "
-                      "run), or the labels mean other points of the hand. Leave it out of "
+                      "run), or the labels mean other points of the model. Leave it out of "
                       "shape.parameters, or give its value in `shape`",
                       p.name, p.value, bound == p.lower ? "lower" : "upper", bound));
     }

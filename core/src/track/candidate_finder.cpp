@@ -14,8 +14,8 @@ namespace {
 
 // Ratio of odds below which candidates count as equally probable; their costs decide then.
 constexpr double kAlike = 2.3;
-// Distance, in metres, up to which the centres of two models are at the same place: two hands of a
-// scene can hardly be nearer.
+// Distance, in metres, up to which the centres of two models are at the same place: two models
+// of a scene can hardly be nearer.
 constexpr double kSamePlace = 0.05;
 // Time constant, in seconds, with which the belief in a hidden model decays.
 constexpr double kForgotten = 0.6;
@@ -88,7 +88,7 @@ Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& star
   std::int64_t evaluations = 0;
   for (int k = 0; k < count; ++k) {
     const auto part = static_cast<std::uint32_t>(k);
-    // Typical error of a start set by hand, in a different direction each time.
+    // Typical error of a start that a person sets, in a different direction each time.
     const Displacement off{0.025, 20 * kDegree, 0};
     const Eigen::VectorXd from =
         k == 0 ? start : displaced(scene_, start, off, seed_of_part(seed, 100 + part));
@@ -203,8 +203,8 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
     if (candidates[i].probability() >= enough &&
         costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
       best = i;
-  // A box turned by 180 degrees looks the same: prefer the pose closest to the last one in the
-  // hand.
+  // A box turned by 180 degrees looks the same: prefer the pose closest to the last one, as
+  // what holds the box has moved it.
   const double cheapest = costs[static_cast<Eigen::Index>(best)];
   const double similar = cheapest + kSimilar * std::abs(cheapest);
   for (std::size_t i = 0; i < apart.size(); ++i)
@@ -254,7 +254,7 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
   std::vector<double> apart;
   if (request.together.size() > 0)
     for (const Candidate& one : all)
-      apart.push_back(moved_in_hand(scene_, request.together, one.found.state, search.shown()));
+      apart.push_back(moved_while_held(scene_, request.together, one.found.state, search.shown()));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
   chosen.reproduced = base.reproduced;

@@ -32,8 +32,8 @@ inline bool any(const ModelFlags& flags) {
 /// Least probability of a candidate that is worth searches around it.
 inline constexpr double kLeastPromising = 0.02;
 
-/// Time, in seconds, for which a pose stays recognised after a detector last saw the model: a hand
-/// is hard to see from some sides.
+/// Time, in seconds, for which a pose stays recognised after a detector last saw the model: a model
+/// may be hard to see from some sides.
 inline constexpr double kRemembered = 0.5;
 
 /// A pose hypothesis for a frame and how well the pictures support it. The cost is infinite if no
@@ -167,7 +167,7 @@ class CandidateFinder {
   /// the same place the one whose model has moved least. Options without a candidate do not count.
   std::size_t best_option(const std::vector<std::optional<Candidate>>& options,
                           const RecoveryRequest& request) const;
-  /// Returns the lost models that the last sure state has in the hand of this one.
+  /// Returns the lost models that this one held in the last sure state.
   ModelFlags lost_with(const RecoveryRequest& request, const Candidate& base,
                        std::size_t model) const;
   /// Returns whether two candidates have a model in the same pose.

@@ -16,7 +16,7 @@ struct Reach {
   double angle = 0;     ///< radians, of each joint angle
 };
 
-/// `status.motion:` of a scene. The defaults exceed the speed of human hands.
+/// `status.motion:` of a scene. The defaults exceed the motions of people.
 struct MotionLimits {
   double speed = 4;
   double turn = 2000 * kDegree;

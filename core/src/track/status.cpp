@@ -75,14 +75,14 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
 Status StatusMonitor::judge_by_cost(const StatusEvidence& evidence) {
   const double usual = usual_cost();
   const bool outlier = std::isfinite(usual) && evidence.cost > usual;
-  // Remember outliers, too: a closing fist changes the cost for good, and must become the usual
+  // Remember outliers, too: another posture may change the cost for good, and must become the usual
   // cost.
   remember(evidence.cost);
   if (outlier || evidence.visible < 2 * settings_.min_visible ||
       evidence.foreground_overlap == ForegroundOverlap::in_parts)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
-  // A sigma that stays large, as of hidden fingers, does not make a model lost.
+  // A sigma that stays large, as of hidden limbs, does not make a model lost.
   return evidence.sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
 }
 

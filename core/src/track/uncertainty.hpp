@@ -23,9 +23,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 ///
 ///   sigma^2 = trace(L C L^T) + |d|^2 + floor^2
 ///
-/// is the expected square of its distance from the truth. A finger that no pixel shows moves no
+/// is the expected square of its distance from the truth. A limb that no pixel shows moves no
 /// residual and keeps P. Residuals of terms that look at the pose only are left out beside terms
-/// that look at pictures: a prior that holds a finger does not tell where it is.
+/// that look at pictures: a prior that holds a limb does not tell where it is.
 class PoseUncertainty {
  public:
   /// The scene must outlive the object.

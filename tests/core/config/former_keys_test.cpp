@@ -156,7 +156,7 @@ TEST(Migrate, LeavesToPeopleWhatItCannotRewrite) {
         "tracker: {patience: 3,  # why\n  history: 9}\n",
         "scenes: {a: {set: {tracker: {patience: 3}}}}\n", "{seed: 1, tracker: {evidence: true}}\n"})
     EXPECT_THAT(test::message_of<ConfigError>([&] { migrated(text); }),
-                AllOf(HasSubstr("scene.yaml:"), HasSubstr("rewrite `tracker` by hand")));
+                AllOf(HasSubstr("scene.yaml:"), HasSubstr("rewrite `tracker` yourself")));
 }
 
 }  // namespace

@@ -51,15 +51,15 @@ TEST_F(HeldTest, WhatMovesWithTheHandHasNotMovedInIt) {
   const Eigen::VectorXd now = moved_with(scene_, box_, hand_, before, state_);
   Eigen::VectorXd both = state_;
   set_pose(scene_.items()[box_], pose_of(scene_.items()[box_], now), both);
-  EXPECT_NEAR(moved_in_hand(scene_, before, both, {true, true}), 0, 1e-9);
-  EXPECT_GT(moved_in_hand(scene_, before, state_, {true, true}), 0.05);
-  EXPECT_EQ(moved_in_hand(scene_, before, state_, {true, false}), 0);
+  EXPECT_NEAR(moved_while_held(scene_, before, both, {true, true}), 0, 1e-9);
+  EXPECT_GT(moved_while_held(scene_, before, state_, {true, true}), 0.05);
+  EXPECT_EQ(moved_while_held(scene_, before, state_, {true, false}), 0);
 }
 
 TEST_F(HeldTest, HalfATurnOfABoxMovesItsCorners) {
   const Eigen::VectorXd before = state_;
   turn(box_, std::numbers::pi, Eigen::Vector3d::UnitZ());
-  EXPECT_GT(moved_in_hand(scene_, before, state_, {true, true}), 0.01);
+  EXPECT_GT(moved_while_held(scene_, before, state_, {true, true}), 0.01);
 }
 
 }  // namespace

@@ -33,9 +33,9 @@ struct FrameError {
   double mean = 0;             ///< over the models; NaN if none has an error
 };
 
-/// Computes the paper's error of a frame. It averages distances over the joints of a hand or the
-/// three anchors of a rigid object, then over the objects. Both matrices are 3xL; an empty `truth`
-/// is unknown.
+/// Computes the paper's error of a frame. It averages distances over the landmarks of a model
+/// (joints, or three anchors of a rigid object), then over the objects. Both matrices are 3xL; an
+/// empty `truth` is unknown.
 FrameError frame_error(const LandmarkLayout& layout, const Eigen::Matrix3Xd& estimate,
                        const Eigen::Matrix3Xd& truth);
 

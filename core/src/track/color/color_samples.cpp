@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kGrid = 64;
 // Largest depth difference of neighbouring grid points of one surface, in metres. Grid points are
-// some 3 mm apart on a hand, so the surface may be slanted by 60 degrees.
+// some 3 mm apart on a model of 0.2 m, so the surface may be slanted by 60 degrees.
 constexpr float kSameSurface = 0.006f;
 
 /// Returns the tile's camera with kGrid x kGrid pixels.

@@ -12,7 +12,7 @@ namespace {
 
 // A line is determined by its values at two levels; their changes are limited.
 constexpr float kLow = 64, kHigh = 192;
-// The views' samples of a hand correlate by 0.7 or more if the pose is within 6 mm, and by less
+// The views' samples of a surface correlate by 0.7 or more if the pose is within 6 mm, and by less
 // than 0.45 if it is 30 mm off.
 constexpr double kSameSurface = 0.5;
 // After this many frames the pose comes from a search, and the map may only change slowly.

@@ -42,7 +42,7 @@ std::vector<std::size_t> moved_cells(const SmallPicture& before, const SmallPict
 CellSight::CellSight(const Camera& from, const SmallPicture& picture, const Camera& to,
                      const SmallPicture& other)
     : size_(picture.cells.size()), other_size_(other.cells.size()) {
-  // The nearest hands, and far behind them.
+  // The nearest models, and far behind them.
   constexpr double kNearest = 0.25, kFarthest = 1000;
   Eigen::Matrix2Xd pixels(2, static_cast<Eigen::Index>(size_));
   for (int y = 0; y < picture.height; ++y)

@@ -9,8 +9,8 @@ namespace {
 
 constexpr int kNoisy = 3;  // frames in a row that make sure that a camera has noise
 
-/// Returns the number of cells that move where a finger does.
-std::size_t cells_of_a_finger(const SmallPicture& picture) {
+/// Returns the least number of cells that a moving part of a model changes.
+std::size_t cells_of_a_part(const SmallPicture& picture) {
   constexpr std::size_t kShare = 700;  // one of so many cells
   return std::max<std::size_t>(4, picture.cells.size() / kShare);
 }
@@ -41,7 +41,7 @@ bool FrozenViews::is_frozen(std::size_t view, const SmallPictures& now) {
   constexpr int kOldest = 30;        // frames: light changes slowly
   constexpr int kSureAge = 1;        // frames in which noise alone changed a picture
   constexpr std::size_t kTimes = 8;  // what moves, against what noise or encoding moves
-  constexpr std::size_t kLarge = 4;  // fingers that move beside noise
+  constexpr std::size_t kLarge = 4;  // parts that move beside noise
   ViewState& own = views_[view];
   if (own.since.empty() || !is_alike(own.since[view], now[view])) {
     own.since = now;
@@ -49,17 +49,17 @@ bool FrozenViews::is_frozen(std::size_t view, const SmallPictures& now) {
     own.moved_at.clear();
     return false;
   }
-  const std::size_t finger = cells_of_a_finger(*now[view]);
+  const std::size_t part = cells_of_a_part(*now[view]);
   const bool still = is_still(*own.since[view], *now[view]);
   std::vector<std::size_t> moved;
   if (!still) moved = moved_cells(*own.since[view], *now[view]);
-  const bool noise = 4 * moved.size() < finger;
+  const bool noise = 4 * moved.size() < part;
   bool frozen = false;
   if (still)
-    frozen = moves_beside(view, now, finger, own.noisy < kNoisy, false);
+    frozen = moves_beside(view, now, part, own.noisy < kNoisy, false);
   else if (noise && own.age >= kSureAge)
     frozen =
-        moves_beside(view, now, std::max(kLarge * finger, kTimes * (moved.size() + 1)), true, true);
+        moves_beside(view, now, std::max(kLarge * part, kTimes * (moved.size() + 1)), true, true);
   if (!frozen) {
     ++own.clock;
     if (!moved.empty()) own.moved_at.resize(now[view]->cells.size(), -1);
@@ -77,7 +77,7 @@ bool FrozenViews::moves_beside(std::size_t view, const SmallPictures& now, std::
     if (other == view || !is_alike(since[other], now[other])) continue;
     if (is_still(*since[other], *now[other])) continue;
     const std::vector<std::size_t> moved = moved_cells(*since[other], *now[other]);
-    if (moved.size() < std::max(least, cells_of_a_finger(*now[other]))) continue;
+    if (moved.size() < std::max(least, cells_of_a_part(*now[other]))) continue;
     const CellSight& places = sight(other, view, now);
     const auto count = std::ranges::count_if(moved, [&](std::size_t cell) {
       return shows(view, *now[view], places.of(cell), clips, recent);

@@ -54,7 +54,7 @@ void GivenStart::conclude(int frame, std::size_t model, const Eigen::VectorXd& s
   std::string result = "it is looked for in the pictures";
   if (is_found) {
     const double away = distance(model, state);
-    if (away < kElsewhere) return;  // as far off as starts by hand are
+    if (away < kElsewhere) return;  // as far off as starts that people set
     result = fmt::format("it was found {:.0f} mm away (mean over the landmarks)", 1000 * away);
   }
   noted_[model] = true;

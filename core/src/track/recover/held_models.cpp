@@ -39,8 +39,8 @@ std::vector<bool> held_by(const Scene& scene, std::size_t model, const Eigen::Ve
   return out;
 }
 
-double moved_in_hand(const Scene& scene, const Eigen::VectorXd& before, const Eigen::VectorXd& now,
-                     const std::vector<bool>& shown) {
+double moved_while_held(const Scene& scene, const Eigen::VectorXd& before,
+                        const Eigen::VectorXd& now, const std::vector<bool>& shown) {
   double sum = 0;
   for (std::size_t by = 0; by < shown.size(); ++by) {
     if (!shown[by]) continue;

@@ -12,7 +12,7 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// A rigid model that moves with the sought one, such as an object in a hand.
+/// A rigid model that moves with the sought one, such as an object that it holds.
 struct HeldModel {
   std::size_t model;
   Eigen::Isometry3d pose;  ///< in the frame of the sought model
@@ -27,10 +27,10 @@ Eigen::VectorXd moved_with(const Scene& scene, std::size_t model, std::size_t ot
 /// be held by it. All are false if `model` is rigid.
 std::vector<bool> held_by(const Scene& scene, std::size_t model, const Eigen::VectorXd& state);
 
-/// Returns how far held models have moved in their hands since `before`, in metres: the sum, over
-/// the models with `shown`, of mean distances of landmarks.
-double moved_in_hand(const Scene& scene, const Eigen::VectorXd& before, const Eigen::VectorXd& now,
-                     const std::vector<bool>& shown);
+/// Returns how far held models have moved relative to their holders since `before`, in metres: the
+/// sum, over the models with `shown`, of mean distances of landmarks.
+double moved_while_held(const Scene& scene, const Eigen::VectorXd& before,
+                        const Eigen::VectorXd& now, const std::vector<bool>& shown);
 
 }  // namespace internal
 }  // namespace hypotrack

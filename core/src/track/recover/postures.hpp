@@ -21,7 +21,7 @@ class Postures {
   /// Returns all postures, at least one. A rigid model has one of length 0.
   const std::vector<Eigen::VectorXd>& all() const { return all_; }
 
-  /// The parameters that bend one limb (a finger), and their values if it is straight, half bent or
+  /// The parameters that bend one limb, and their values if it is straight, half bent or
   /// bent.
   struct Limb {
     std::vector<int> parameters;

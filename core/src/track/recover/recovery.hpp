@@ -98,7 +98,7 @@ class Recovery {
   /// Returns the colours to look for: those learned, or else those of the model's texture. Unknown
   /// where there is none.
   ForegroundColors colors_of(const Task& task) const;
-  /// Returns the guess that the model has moved rigidly with another, as an object in a hand does.
+  /// Returns the guess that the model has moved rigidly with another, as a held object does.
   PoseGuess beside(const Task& task, std::size_t other) const;
   /// Returns whether a state hides models that are visible without the lost one.
   static bool hides_others(const Task& task, const Eigen::VectorXd& state, const ColorMap& colors);

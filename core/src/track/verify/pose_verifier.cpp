@@ -23,7 +23,8 @@ ModelVerifier::ModelVerifier(const Scene& scene, std::size_t model,
     : item_(scene.items()[model]), model_(model), sampler_(scene, model, cameras) {
   constexpr double kTexel = 0.003;  // metres, as pictures show a texture
   const Mesh& mesh = item_.model->data().mesh;
-  if (!is_rigid(item_) || mesh.texture.empty()) return;  // no hand has the texture of a mesh
+  // An articulated model may have the texture of another individual.
+  if (!is_rigid(item_) || mesh.texture.empty()) return;
   texture_.expect(texture_colors(mesh, sampler_.points(), kTexel));
   symmetries_ = symmetries(mesh);
 }

@@ -85,14 +85,14 @@ void extend(cv::Mat1f& depth, const cv::Mat1b& inside, const cv::Mat1b& ring) {
       if (ring(y, x)) depth(y, x) = of_label[static_cast<std::size_t>(label(y, x))];
 }
 
-/// Returns the points along a side of a model's grid. A model that is larger than a hand has more,
-/// so that its parts are sampled as finely.
+/// Returns the points along a side of a model's grid. A model that is larger than kCovered
+/// has more, so that its parts are sampled as finely.
 int grid_for(const Mesh& mesh) {
-  constexpr float kHand = 0.35f;  // metres
+  constexpr float kCovered = 0.35f;  // metres that kSampleGrid points cover
   constexpr int kMostTimes = 3;
   const float size =
       (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).norm();
-  return kSampleGrid * std::clamp(static_cast<int>(std::ceil(size / kHand)), 1, kMostTimes);
+  return kSampleGrid * std::clamp(static_cast<int>(std::ceil(size / kCovered)), 1, kMostTimes);
 }
 
 }  // namespace
