@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <string_view>
 #include <utility>
 
 #include "camera/epipolar_line.hpp"
@@ -13,19 +11,17 @@
 namespace hypotrack::clicking {
 namespace {
 
-/// Returns the names of a model's landmarks in the order in which they are asked for: the wrist and
-/// the knuckles of a hand first, or the corners of a box only.
+/// Returns the names of a model's landmarks in the order in which they are asked for: its clear
+/// ones first, or the corners of a box only.
 std::vector<std::string> names_in_order(const std::shared_ptr<const Model>& model) {
-  constexpr std::array<std::string_view, 10> kFirst = {
-      "wrist",     "index_mcp", "middle_mcp", "ring_mcp", "little_mcp",
-      "thumb_tip", "index_tip", "middle_tip", "ring_tip", "little_tip"};
+  const std::vector<std::string> first = model->clear_landmarks();
   const std::shared_ptr<const Model> whole = clickable(model);
   const bool has_corners = whole != model;
   std::vector<std::string> names;
   for (const Landmark& l : whole->data().landmarks)
     if (!has_corners || l.name.starts_with("corner_")) names.push_back(l.name);
   const auto rank = [&](const std::string& name) {
-    return std::ranges::find(kFirst, name) - kFirst.begin();  // the others: all the same
+    return std::ranges::find(first, name) - first.begin();  // the others: all the same
   };
   std::ranges::stable_sort(names, {}, rank);
   return names;
@@ -132,7 +128,7 @@ void Clicker::refit() {
   problem_.clear();
   const std::vector<Click> all = clicks();
   if (all.empty()) {
-    problem_ = "no model has enough landmarks yet: a hand takes 4, an object 3";
+    problem_ = "no model has enough landmarks yet: one with joints takes 4, a rigid one 3";
     return;
   }
   try {

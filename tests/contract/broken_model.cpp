@@ -21,11 +21,24 @@ enum class Fault {
   moves_on_its_own,
   dead_shape,
   drops_triangles,
+  impossible_correlations,
+  skewed_directions,
+  two_directions_of_one_name,
 };
-constexpr std::array<std::string_view, 11> kFaults = {
-    "none",           "millimetres",      "two_of_one_name",  "no_landmarks",     "dead_angle",
-    "never_the_same", "ignores_position", "ignores_rotation", "moves_on_its_own", "dead_shape",
-    "drops_triangles"};
+constexpr std::array<std::string_view, 14> kFaults = {"none",
+                                                      "millimetres",
+                                                      "two_of_one_name",
+                                                      "no_landmarks",
+                                                      "dead_angle",
+                                                      "never_the_same",
+                                                      "ignores_position",
+                                                      "ignores_rotation",
+                                                      "moves_on_its_own",
+                                                      "dead_shape",
+                                                      "drops_triangles",
+                                                      "impossible_correlations",
+                                                      "skewed_directions",
+                                                      "two_directions_of_one_name"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
 Mesh tetrahedron(float size) {
@@ -74,7 +87,16 @@ class Broken final : public Model {
   bool poses_itself() const override { return params_.poses_itself; }
 
   std::vector<ShapeParameter> shape_parameters() const override {
-    return {{.name = "size", .lower = 0.5, .upper = 2, .deviation = 0.1}};
+    std::vector<ShapeParameter> all{{.name = "size", .lower = 0.5, .upper = 2, .deviation = 0.1}};
+    if (params_.fault == Fault::impossible_correlations) all[0].correlations = {0.5};
+    return all;
+  }
+  std::vector<NamedDirection> directions() const override {
+    std::vector<NamedDirection> all{{"lid", Eigen::Vector3d::UnitZ()},
+                                    {"front", Eigen::Vector3d::UnitX()}};
+    if (params_.fault == Fault::skewed_directions) all[1].axis = {0.8, 0, 0.6};
+    if (params_.fault == Fault::two_directions_of_one_name) all[1].name = "lid";
+    return all;
   }
   ModelData shaped(std::span<const double> values) const override {
     ModelData other = data();

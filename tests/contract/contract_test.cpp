@@ -196,6 +196,12 @@ INSTANTIATE_TEST_SUITE_P(
              "four threads posing at once differ from one", kItself},
         Case{"model", "dead_shape", "its shape parameters build it",
              "the shape parameter 'size' changes nothing"},
+        Case{"model", "impossible_correlations", "its shape parameters build it",
+             "'size' has 1 correlations, expected 0"},
+        Case{"model", "skewed_directions", "its directions are perpendicular unit vectors",
+             "'lid' and 'front' are not perpendicular"},
+        Case{"model", "two_directions_of_one_name", "its directions are perpendicular unit vectors",
+             "a direction has no name or that of another: 'lid'"},
         Case{"model", "drops_triangles", "its shape parameters build it",
              "another shape has other triangles"}),
     [](const auto& each) { return each.param.fault; });

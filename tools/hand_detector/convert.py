@@ -6,7 +6,7 @@
 A flat file is a line of text per step, then all weights, 32-bit floats, in the order of the steps. Tensor 0
 is the picture, RGB from 0 to 1; each step makes the next tensor. Tensors are [y, x, channel], weights of
 convolutions [out, y, x, in], of depthwise ones [y, x, channel]; then comes the bias. Equal input gives equal
-bytes. plugins/detectors/hands/network_file.cpp reads them. Needs python3-numpy.
+bytes. plugins/hands/detector/network_file.cpp reads them. Needs python3-numpy.
 """
 import sys
 

@@ -71,14 +71,14 @@ struct BoneMotion {
   MotionKind kind = MotionKind::rotation;
 };
 
-/// A named point for error metrics: a joint of a hand or an anchor of a rigid object.
+/// A named point for error metrics: a joint or an anchor of a rigid object.
 struct Landmark {
   std::string name;
   int bone = 0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the bone's frame, metres
 };
 
-/// One number that describes the build of an individual, such as its size or a finger's length. It
+/// One number that describes the build of an individual, such as its size or a limb's length. It
 /// belongs to the model, not to the state.
 struct ShapeParameter {
   std::string name;
@@ -87,6 +87,15 @@ struct ShapeParameter {
   double lower = 1;    ///< bounds; `value` and `neutral` lie within
   double upper = 1;
   double deviation = 1;  ///< prior standard deviation among individuals, > 0
+  /// Correlations among individuals with each parameter before it; empty: it is independent of
+  /// them.
+  std::vector<double> correlations = {};
+};
+
+/// A direction of a model at rest by which scenes may give its rotation (`rotation: {lid: up}`).
+struct NamedDirection {
+  std::string name;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector in the model's frame
 };
 
 /// All data of a model. A rigid object is a skeleton of one bone.
@@ -104,8 +113,8 @@ struct ModelData {
 HYPOTRACK_API void validate(const ModelData& data, std::string_view where);
 
 /// Groups the parameters that move one part of a model together and returns their indices. The
-/// first group is the pose's seven. Each other group is a limb, such as a finger, or an arm from
-/// shoulder to hand. A limb is a chain of jointed bones up to where the skeleton forks into several
+/// first group is the pose's seven. Each other group is a limb, such as a leg or a door with its
+/// handle. A limb is a chain of jointed bones up to where the skeleton forks into several
 /// jointed ones. A parameter that moves bones of several limbs joins them. A parameter that moves
 /// no bone is a group of its own.
 HYPOTRACK_API std::vector<std::vector<int>> parameter_groups(const ModelData& data);
@@ -137,6 +146,13 @@ class HYPOTRACK_API Model {
   /// Positions and lengths change. Bones, parameters, landmarks, triangles and weights stay. Throws
   /// Error if the model has no shape parameters or the number of values differs.
   virtual ModelData shaped(std::span<const double> values) const;
+
+  /// Returns directions that people can name, perpendicular to each other, under different names.
+  /// A scene turns the model by two of them; empty: by angles only.
+  virtual std::vector<NamedDirection> directions() const { return {}; }
+  /// Returns names of landmarks that people find in pictures, clearest first. Who clicks a pose is
+  /// asked for these before the others.
+  virtual std::vector<std::string> clear_landmarks() const { return {}; }
 
  private:
   ModelData data_;

@@ -14,12 +14,12 @@ namespace hypotrack {
 
 /// Reads a pose from YAML and returns `base` with the given values replaced:
 ///
-///   hand:                                   # a model of the scene
+///   box:                                    # a model of the scene
 ///     position_mm: [0, 20, 500]             # x y z in the world
 ///     rotation_deg: [0, 180, 0]             # rotation vector: axis times angle
 ///     quaternion: [1, 0, 0, 0]              # instead of rotation_deg: w x y z
-///     rotation: {palm: to_camera, fingers: up}  # instead of it, for hands: where they point
-///     angles_deg: {index_flexion_1: 30}     # any joint angles of the model
+///     rotation: {front: to_camera, lid: up} # instead of it: where its directions() point
+///     angles_deg: {hinge: 30}               # any joint angles of the model
 ///     lengths_mm: {drawer: 80}              # any lengths of joints that slide
 ///
 /// Every key is optional. A direction in `rotation` is [x, y, z] in the world or to_camera, away,

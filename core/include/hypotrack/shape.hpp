@@ -38,6 +38,10 @@ HYPOTRACK_API std::vector<double> read_shape(const ShapeSettings& settings,
 /// Writes a YAML map for read_shape(): one line per parameter, values rounded to 1/10000.
 HYPOTRACK_API std::string shape_yaml(std::span<const ShapeParameter> parameters);
 
+/// Returns the correlations of shape parameters among individuals (PxP). Throws DataError if one
+/// has the wrong number of them, or no distribution has such correlations.
+HYPOTRACK_API Eigen::MatrixXd shape_correlations(std::span<const ShapeParameter> parameters);
+
 /// Stretch of a bone in its own frame, together with its vertices and children.
 struct BoneStretch {
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();

@@ -2,15 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/shape.hpp"
 #include "plugin/plugin_call.hpp"
 
 namespace hypotrack::internal {
 namespace {
 
 constexpr float kFarthest = 1e9F;  // metres; beyond, single precision may overflow
+constexpr double kSkew = 1e-6;     // of directions that count as unit vectors and perpendicular
 
 }  // namespace
 
@@ -47,11 +51,38 @@ void CheckedModel::check_points(const Points& points, Eigen::Index expected,
 }
 
 std::vector<ShapeParameter> CheckedModel::shape_parameters() const {
-  return detail::call_plugin(who_, explains_, "", [&] { return model_->shape_parameters(); });
+  auto all = detail::call_plugin(who_, explains_, "", [&] { return model_->shape_parameters(); });
+  try {
+    shape_correlations(all);
+  } catch (const DataError& error) {
+    throw PluginError(fmt::format("{}: {}; this is a bug in the model", who_, error.what()));
+  }
+  return all;
 }
 
 ModelData CheckedModel::shaped(std::span<const double> values) const {
   return detail::call_plugin(who_, explains_, "", [&] { return model_->shaped(values); });
+}
+
+std::vector<NamedDirection> CheckedModel::directions() const {
+  const auto all = detail::call_plugin(who_, explains_, "", [&] { return model_->directions(); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto is_apart = [&](const NamedDirection& earlier) {
+      return earlier.name != all[i].name && std::abs(earlier.axis.dot(all[i].axis)) < kSkew;
+    };
+    if (!all[i].name.empty() && std::abs(all[i].axis.norm() - 1) < kSkew &&
+        std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(i), is_apart))
+      continue;
+    throw PluginError(
+        fmt::format("{}: its direction '{}' is {} {} {}, expected unit vectors of different names, "
+                    "perpendicular to each other; this is a bug in the model",
+                    who_, all[i].name, all[i].axis.x(), all[i].axis.y(), all[i].axis.z()));
+  }
+  return all;
+}
+
+std::vector<std::string> CheckedModel::clear_landmarks() const {
+  return detail::call_plugin(who_, explains_, "", [&] { return model_->clear_landmarks(); });
 }
 
 std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, std::string who) {
@@ -60,8 +91,10 @@ std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, s
         "{}: has no landmarks, expected one at least, such as its centre; this is a bug in the "
         "model",
         who));
-  const bool runs = detail::call_plugin(
-      who, [&] { return model->poses_itself() || !model->shape_parameters().empty(); });
+  const bool runs = detail::call_plugin(who, [&] {
+    return model->poses_itself() || !model->shape_parameters().empty() ||
+           !model->directions().empty() || !model->clear_landmarks().empty();
+  });
   if (!runs) return model;
   return std::make_shared<CheckedModel>(std::move(model), std::move(who));
 }

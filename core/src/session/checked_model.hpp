@@ -22,8 +22,12 @@ class CheckedModel final : public Model {
   /// Throws PluginError if the number of points is another than in data(), or one is not finite.
   void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
             Eigen::Matrix3Xd& landmarks) const override;
+  /// Throws PluginError if shape_correlations() refuses them.
   std::vector<ShapeParameter> shape_parameters() const override;
   ModelData shaped(std::span<const double> values) const override;
+  /// Throws PluginError if they are no unit vectors, not perpendicular, or share a name.
+  std::vector<NamedDirection> directions() const override;
+  std::vector<std::string> clear_landmarks() const override;
 
  private:
   template <class Points>

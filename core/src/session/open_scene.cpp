@@ -289,7 +289,7 @@ void Opening::start() {
     if (!start->looks())
       detail::fail_at(from,
                       "gives a state and does not look for lost models; expected starts "
-                      "such as global_search or hand_landmarks");
+                      "such as global_search");
 }
 
 void Opening::outputs() {

@@ -11,7 +11,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
-#include "session/hand_rotation.hpp"
+#include "session/rotation_by_directions.hpp"
 
 namespace hypotrack {
 namespace {
@@ -31,7 +31,7 @@ struct PoseParams {
     v("quaternion", quaternion,
       {.help = "w x y z, instead of rotation_deg", .min = -1e6, .max = 1e6});
     v("rotation", directions,
-      {.help = "{palm, fingers}, instead of rotation_deg: where a hand's palm and fingers point"});
+      {.help = "instead of rotation_deg: where two directions of the model point, by its names"});
     v("angles_deg", angles, {.help = "joint angles by name", .unit = "deg"});
     v("lengths_mm", lengths, {.help = "how far joints slide, by name", .unit = "mm"});
   }
@@ -94,7 +94,7 @@ void apply_rotation(const ConfigNode& node, const PoseParams& pose, const Scene:
     q = v.norm() > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(v.norm(), v.normalized()))
                      : Eigen::Quaterniond::Identity();
   } else if (pose.directions.defined()) {
-    q = read_hand_rotation(pose.directions, item, cameras);
+    q = rotation_by_directions(pose.directions, item, cameras);
   }
   q.normalize();
   part.segment<4>(3) << q.w(), q.x(), q.y(), q.z();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "config/read_value.hpp"
+#include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::internal {
@@ -45,8 +46,8 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
   if (from.is_list()) {
     for (std::size_t i = 0; i < from.size(); ++i) add(from.at(i));
   } else if (from.scalar() == kStartAuto) {
-    for (const char* type : {"hand_landmarks", "global_search"})
-      add(ConfigNode::parse(type, "the starts of auto"));
+    const ConfigNode list = ConfigNode::load(data_file("configs/starts/auto.yaml"));
+    for (std::size_t i = 0; i < list.size(); ++i) add(list.at(i));
   } else {
     add(from);
   }

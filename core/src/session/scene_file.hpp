@@ -30,7 +30,7 @@ inline constexpr std::string_view kStartFromFile = "file";
 /// The start that takes its file from `init.file`.
 inline constexpr std::string_view kStartFromClicks = "clicks";
 
-/// The word in `init.from` for all starts that look for models and can.
+/// The word in `init.from` for those starts in configs/starts/auto.yaml that can.
 inline constexpr std::string_view kStartAuto = "auto";
 
 /// `init:` of a scene.
@@ -45,9 +45,8 @@ struct InitSettings {
   void visit(ParamVisitor& v) {
     v("from", from,
       {.help = "start of the first search: the name of a start (rest, truth, file, clicks, "
-               "global_search, hand_landmarks) or {type, ...}; a list of starts that look for the "
-               "models, tried "
-               "in this order; or auto: all of these that can"});
+               "global_search or another) or {type, ...}; a list of starts that look for the "
+               "models, tried in this order; or auto: those of configs/starts/auto.yaml that can"});
     v("file", file,
       {.help = "for from: file: a pose (YAML, written like init.pose) or a state table (CSV, a "
                "track.csv for example); for from: clicks: landmarks marked in both views (YAML)"});

@@ -41,8 +41,8 @@ struct ShapeEstimateSettings {
        .max = 60,
        .unit = "s"});
     v("from", from,
-      {.help = "images: fits all parameters while tracking; starts: takes the scale from the hands "
-               "that a detector of init.from sees (hand_landmarks)"});
+      {.help = "images: fits all parameters while tracking; starts: takes the scale "
+               "that starts in init.from see, if they recognise the models"});
     v("models", models, {.help = "models of one shape; default: all that have shape parameters"});
     v("parameters", parameters, {.help = "parameters to estimate; default: all shape parameters"});
     v("frames", frames, {.help = "frames that are fitted together", .min = 2, .max = 1000});

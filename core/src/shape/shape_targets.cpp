@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/shape.hpp"
 #include "hypotrack/suggest.hpp"
-#include "shape/hand_proportions.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -37,7 +37,8 @@ std::vector<int> find_models(const Scene& scene, const std::vector<std::string>&
   }
   if (found.empty()) {
     throw ConfigError(
-        "shape: no model of this scene has shape parameters; a hand has some, or a rigid_mesh");
+        "shape: no model of this scene has shape parameters; `hypotrack plugins info TYPE` "
+        "lists those of a model");
   }
   return found;
 }
@@ -112,8 +113,8 @@ ShapePrior ShapeTargets::prior(double weight) const {
     prior.lower[i] = wanted_[k].lower;
     prior.upper[i] = wanted_[k].upper;
   }
-  const Eigen::MatrixXd covariance =
-      deviation.asDiagonal() * shape_correlations(wanted_) * deviation.asDiagonal();
+  const Eigen::MatrixXd correlations = shape_correlations(all_)(place_, place_);
+  const Eigen::MatrixXd covariance = deviation.asDiagonal() * correlations * deviation.asDiagonal();
   prior.precision = covariance.inverse();
   prior.weight = weight;
   return prior;

@@ -12,8 +12,8 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// The models whose shape is estimated, and the shape parameters that they share: the hands of a
-/// scene belong to one person.
+/// The models whose shape is estimated, and the shape parameters that they share: all are
+/// models of one individual.
 class ShapeTargets {
  public:
   /// Selects the named models, or all that have shape parameters. `parameters` are those to find
@@ -29,8 +29,8 @@ class ShapeTargets {
   const std::vector<ShapeParameter>& wanted() const { return wanted_; }
   /// Returns all() with given values for wanted().
   std::vector<ShapeParameter> with(const Eigen::VectorXd& values) const;
-  /// Returns the prior of wanted() with a weight: means, deviations and bounds of the parameters,
-  /// with shape_correlations(). Unwanted parameters do not affect wanted ones.
+  /// Returns the prior of wanted() with a weight: means, deviations, bounds and correlations.
+  /// Unwanted parameters do not affect wanted ones.
   ShapePrior prior(double weight) const;
   /// Returns the initial values of wanted().
   Eigen::VectorXd values() const;

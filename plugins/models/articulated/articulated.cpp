@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "description.hpp"
+#include "hand_points.hpp"
 #include "hypotrack/plugin.hpp"
 #include "landmarks.hpp"
 #include "object_rig.hpp"
+#include "palm.hpp"
 #include "surface.hpp"
 
 namespace hypotrack {
@@ -113,6 +115,12 @@ class Articulated : public Model {
  public:
   using Params = ArticulatedParams;
   Articulated(const Params& params, PluginContext& context) : Model(make_object(params, context)) {}
+
+  /// Returns those of a robot's hand, if the anchors have the names of a hand's landmarks.
+  std::vector<NamedDirection> directions() const override { return palm_directions(*this); }
+  std::vector<std::string> clear_landmarks() const override {
+    return palm_axes(*this) ? clear_hand_landmarks() : std::vector<std::string>();
+  }
 };
 
 }  // namespace

@@ -11,11 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "hand_points.hpp"
 #include "hand_shape.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/shape.hpp"
 #include "names.hpp"
+#include "palm.hpp"
 #include "rig.hpp"
 
 namespace hypotrack {
@@ -129,6 +131,8 @@ class Hand : public Model {
   ModelData shaped(std::span<const double> values) const override {
     return shaped_hand(neutral_, values);
   }
+  std::vector<NamedDirection> directions() const override { return palm_directions(*this); }
+  std::vector<std::string> clear_landmarks() const override { return clear_hand_landmarks(); }
 
  private:
   Hand(const ModelData& neutral, std::vector<double> shape)

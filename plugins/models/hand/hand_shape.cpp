@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "hand_proportions.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/shape.hpp"
 
@@ -22,8 +23,8 @@ constexpr std::array<std::string_view, 5> kAllFingers = {"thumb", "index", "midd
 // only. Finger lengths themselves vary by 6 to 8 % (Chatzioglou, Pinar and Govsa, "Biometric
 // analysis hand parameters in young adults", Anat. Cell Biol. 57(2), 2024: 63.9 +- 4.1, 70.7
 // +- 5.2, 65.5 +- 4.8 and 53.3 +- 4.3 mm), which leaves 6.5 % over the palm. Width is assumed to
-// vary as breadth does, the thumb as fingers do. The core knows the correlations
-// (core/src/shape/hand_proportions.cpp). The bounds are at 4 to 5 deviations.
+// vary as breadth does, the thumb as fingers do. hand_proportions.cpp has the correlations. The
+// bounds are at 4 to 5 deviations.
 constexpr double kSizeDeviation = 0.07, kFingerDeviation = 0.065, kWidthDeviation = 0.06;
 constexpr double kSmallest = 0.7, kLargest = 1.35;
 constexpr double kShortest = 0.75, kLongest = 1.3;
@@ -69,6 +70,7 @@ const std::vector<ShapeParameter>& hand_shape_parameters() {
     for (const std::string_view finger : kAllFingers)
       all.push_back({std::string(finger), 1, 1, kShortest, kLongest, kFingerDeviation});
     all.push_back({"width", 1, 1, kShortest, kLongest, kWidthDeviation});
+    correlate_as_people(all);
     return all;
   }();
   return parameters;

@@ -1,11 +1,13 @@
 // The left hand to any right hand: its mirror image in x = 0.
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/shape.hpp"
+#include "palm.hpp"
 
 namespace hypotrack {
 namespace {
@@ -53,6 +55,17 @@ class MirroredHand : public Model {
   std::vector<ShapeParameter> shape_parameters() const override { return original_.shape; }
   ModelData shaped(std::span<const double> values) const override {
     return mirrored(original_.model->shaped(values));
+  }
+  /// Returns those of this hand. A model without a hand's landmarks may have others, mirrored.
+  std::vector<NamedDirection> directions() const override {
+    std::vector<NamedDirection> all = palm_directions(*this);
+    if (!all.empty()) return all;
+    all = original_.model->directions();
+    for (NamedDirection& direction : all) direction.axis.x() *= -1;
+    return all;
+  }
+  std::vector<std::string> clear_landmarks() const override {
+    return original_.model->clear_landmarks();
   }
 
  private:

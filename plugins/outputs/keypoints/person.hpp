@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hand_detection.hpp"
+#include "hand_points.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/solution.hpp"
 

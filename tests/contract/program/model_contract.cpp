@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hypotrack/kinematics.hpp"
+#include "hypotrack/shape.hpp"
 #include "subject.hpp"
 #include "test_models.hpp"
 
@@ -171,6 +172,7 @@ void check_shape_parameters(const std::vector<ShapeParameter>& shape) {
             "the shape parameter '" + p.name +
                 "' must have finite bounds, values within them and a positive deviation");
   }
+  shape_correlations(shape);
 }
 
 void check_shapes(const Model& model) {
@@ -205,6 +207,21 @@ void check_shapes(const Model& model) {
   }
 }
 
+void check_directions(const Model& model) {
+  constexpr double kSkew = 1e-6;
+  const std::vector<NamedDirection> all = model.directions();
+  if (all.empty()) throw Skipped("it names none");
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    require(!all[i].name.empty() && names.insert(all[i].name).second,
+            "a direction has no name or that of another: '" + all[i].name + "'");
+    require(std::abs(all[i].axis.norm() - 1) < kSkew, "'" + all[i].name + "' is no unit vector");
+    for (std::size_t j = 0; j < i; ++j)
+      require(std::abs(all[i].axis.dot(all[j].axis)) < kSkew,
+              "'" + all[j].name + "' and '" + all[i].name + "' are not perpendicular");
+  }
+}
+
 }  // namespace
 
 void check_model(Report& report, const Subject& subject) {
@@ -221,6 +238,7 @@ void check_model(Report& report, const Subject& subject) {
   report.row("its rotation turns it rigidly about its origin", [&] { check_rotation(*model); });
   report.row("every joint moves something", [&] { check_joints_matter(*model); });
   report.row("its shape parameters build it", [&] { check_shapes(*model); });
+  report.row("its directions are perpendicular unit vectors", [&] { check_directions(*model); });
   report.row("it poses itself the same from several threads", [&] { check_self_posing(*model); });
   report.row("a second object is the same", [&] {
     const auto second = subject.make<Model>();

@@ -10,6 +10,15 @@
 
 namespace hypotrack::test {
 
+/// A hand whose wrist and tips are clear.
+class ClearHand final : public Model {
+ public:
+  ClearHand() : Model(make_test_hand()) {}
+  std::vector<std::string> clear_landmarks() const override {
+    return {"wrist", "index_tip", "no_landmark", "thumb_tip", "middle_tip", "ring_tip"};
+  }
+};
+
 /// A hand half a metre before two cameras, and clicks on it.
 class ClickedScene {
  public:
@@ -42,7 +51,7 @@ class ClickedScene {
     for (const std::size_t view : {0, 1}) clicker.click(view, pixel(name, view));
   }
 
-  Scene scene{{{"hand", std::make_shared<Model>(make_test_hand())}}};
+  Scene scene{{{"hand", std::make_shared<ClearHand>()}}};
   std::vector<Camera> cameras;
   Eigen::VectorXd state;
 };

@@ -34,6 +34,16 @@ TEST_F(ClickerTest, AsksForTheWristFirstAndFitsAfterFourLandmarks) {
   EXPECT_EQ(clicker_.press('s'), Clicker::Answer::save);
 }
 
+TEST_F(ClickerTest, AsksForTheModelsClearLandmarksBeforeTheOthersInTheirOrder) {
+  std::vector<std::string> asked;
+  for (int i = 0; i < 5; ++i) {
+    asked.push_back(clicker_.asked());
+    clicker_.press('n');
+  }
+  EXPECT_THAT(asked,
+              testing::ElementsAre("wrist", "index_tip", "thumb_tip", "middle_tip", "ring_tip"));
+}
+
 TEST_F(ClickerTest, DrawsTheLineOnWhichTheOtherClickMustLie) {
   const Eigen::Vector2d left = world_.pixel("wrist", 0), right = world_.pixel("wrist", 1);
   EXPECT_EQ(clicker_.drawing().lines[1].cols(), 0);
@@ -100,7 +110,7 @@ TEST_F(ClickerTest, SaysWhichClicksDoNotMeetAndSavesNothing) {
 TEST(ClickerOfTwoModels, FitsTheOneThatHasEnoughClicks) {
   const test::ClickedScene world;
   const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())},
-                     {"hand", std::make_shared<Model>(test::make_test_hand())}});
+                     {"hand", std::make_shared<test::ClearHand>()}});
   Clicker clicker(scene, world.cameras, 8);
   EXPECT_TRUE(clicker.asked().starts_with("box."));
   clicker.click(0, {300, 200});

@@ -51,6 +51,37 @@ TEST(ShapeTargets, AreThinnerByWhatIsAskedFor) {
   EXPECT_EQ(thinner->items()[0].model, scene.items()[0].model);
 }
 
+TEST(ShapeTargets, LearnNothingFromAnUnsoughtParameter) {
+  const Scene scene = test::shaped_scene();
+  const ShapePrior both = ShapeTargets(scene, {}, {}).prior(1);
+  const ShapePrior alone = ShapeTargets(scene, {}, {"index"}).prior(1);
+  EXPECT_NEAR(alone.precision(0, 0), 1 / (0.05 * 0.05), 1e-9);
+  EXPECT_NEAR(both.precision.inverse()(1, 1), 0.05 * 0.05, 1e-12);
+  EXPECT_NEAR(both.precision.inverse()(1, 0), -0.3 * 0.07 * 0.05, 1e-12);
+}
+
+TEST(ShapeCorrelations, AreThoseOfEachParameterWithTheOnesBeforeIt) {
+  const std::vector<ShapeParameter> all = {
+      {.name = "height"}, {.name = "lid"}, {.name = "width", .correlations = {0.5, -0.25}}};
+  EXPECT_EQ(shape_correlations(all),
+            (Eigen::Matrix3d() << 1, 0, 0.5, 0, 1, -0.25, 0.5, -0.25, 1).finished());
+}
+
+TEST(ShapeCorrelations, AreRefusedIfNoDistributionHasThem) {
+  const auto refusal = [](std::vector<double> correlations) {
+    return ::testing::ThrowsMessage<DataError>(::testing::HasSubstr(
+        correlations.size() == 1 ? "no distribution" : "'lid' has 2 correlations, expected 1"));
+  };
+  for (const std::vector<double>& bad :
+       std::vector<std::vector<double>>{{1.5}, {1}, {std::nan("")}, {0.1, 0.2}})
+    EXPECT_THAT(
+        [&] {
+          (void)shape_correlations(std::vector<ShapeParameter>{
+              {.name = "height"}, {.name = "lid", .correlations = bad}});
+        },
+        refusal(bad));
+}
+
 TEST(ShapeTargets, RefuseWhatIsNotThere) {
   const Scene scene = two_hands();
   EXPECT_THAT([&] { ShapeTargets(scene, {"box"}, {}); },

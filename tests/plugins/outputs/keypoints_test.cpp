@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "expect_error.hpp"
-#include "hand_detection.hpp"
+#include "hand_points.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"
 

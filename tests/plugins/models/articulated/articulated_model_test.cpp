@@ -55,6 +55,21 @@ TEST(ArticulatedModel, HasThreeLandmarksPerLinkThatMoves) {
                                           "drawer_center", "drawer_end_x", "drawer_end_y"));
 }
 
+TEST(ArticulatedModel, HasTheDirectionsOfARobotsHandByItsAnchors) {
+  const auto hand = make_model(object("laptop.urdf") + ", anchors: [" +
+                               "{name: wrist, link: base, position_mm: [0, 80, 0]}, "
+                               "{name: index_mcp, link: base, position_mm: [-50, -40, 0]}, "
+                               "{name: little_mcp, link: base, position_mm: [50, -40, 0]}, "
+                               "{name: middle_tip, link: lid, position_mm: [0, -150, 0]}]}");
+  const std::vector<NamedDirection> all = hand->directions();
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].name, "palm");
+  EXPECT_TRUE(all[0].axis.isApprox(Eigen::Vector3d::UnitZ(), 1e-12)) << all[0].axis;
+  EXPECT_EQ(all[1].name, "fingers");
+  EXPECT_TRUE(all[1].axis.isApprox(-Eigen::Vector3d::UnitY(), 1e-12)) << all[1].axis;
+  EXPECT_TRUE(make_model(object("laptop.urdf") + "}")->directions().empty());
+}
+
 TEST(ArticulatedModel, SaysWhichParametersAFileNeeds) {
   EXPECT_THAT(model_error("{type: articulated}"), HasSubstr("file"));
   EXPECT_THAT(model_error("{type: articulated, file: lamp.glb}"),

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "hand_detection.hpp"
+#include "hand_points.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "model/palm.hpp"
+#include "palm.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "hypotrack/kinematics.hpp"
 
-namespace hypotrack::internal {
+namespace hypotrack {
 namespace {
 
 /// Returns the model's landmarks at rest, with every angle moved by a share of the way to its upper
@@ -40,11 +40,19 @@ std::optional<PalmAxes> palm_axes(const Model& model) {
   const Eigen::Vector3d to_index = rest.col(index) - rest.col(wrist);
   const Eigen::Vector3d to_little = rest.col(little) - rest.col(wrist);
   const Eigen::Vector3d across = to_index.cross(to_little);
+  // Fingers bend to the palm's side, which tells a right hand from a left one.
   const double side = across.dot(grip.col(tip) - rest.col(tip));
   const double length = (rest.col(tip) - rest.col(wrist)).norm();
   if (!(std::abs(side) > kLeastBend * across.norm() * length)) return std::nullopt;
   // Both knuckles lie in the palm's plane, so this is perpendicular to its normal.
-  return PalmAxes{across.normalized() * (side > 0 ? 1 : -1), (to_index + to_little).normalized()};
+  return PalmAxes{across.normalized() * (side > 0 ? 1 : -1), (to_index + to_little).normalized(),
+                  side > 0};
 }
 
-}  // namespace hypotrack::internal
+std::vector<NamedDirection> palm_directions(const Model& model) {
+  const std::optional<PalmAxes> axes = palm_axes(model);
+  if (!axes) return {};
+  return {{"palm", axes->palm}, {"fingers", axes->fingers}};
+}
+
+}  // namespace hypotrack

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -19,16 +20,15 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 /// The scene of one hand that ships with hypotrack.
-class HandRotation : public testing::Test {
+class PalmRotation : public testing::Test {
  protected:
   static Scene scene_of(const std::string& model) {
     return Scene({{"hand", std::shared_ptr<const Model>(
                                PluginLoader().make<Model>(ConfigNode::parse(model, "test")))}});
   }
-  static Eigen::VectorXd read(const Scene& scene, const std::string& rotation,
-                              std::span<const Camera> cameras = {}) {
+  static Eigen::VectorXd read(const Scene& scene, const std::string& rotation) {
     return read_pose(ConfigNode::parse("{hand: {" + rotation + "}}", "pose.yaml"), scene,
-                     scene.rest_state(), cameras);
+                     scene.rest_state());
   }
   /// Returns a landmark's position.
   static Eigen::Vector3d at(const Scene& scene, const Eigen::VectorXd& state,
@@ -46,14 +46,14 @@ class HandRotation : public testing::Test {
   const Scene hand_ = scene_of("{type: hand}");
 };
 
-TEST_F(HandRotation, OfAPalmToTheCameraIsTheHalfTurnAboutX) {
+TEST_F(PalmRotation, OfAPalmToTheCameraIsTheHalfTurnAboutX) {
   const Eigen::VectorXd words = read(hand_, "rotation: {palm: to_camera, fingers: up}");
   const Eigen::VectorXd degrees = read(hand_, "rotation_deg: [180, 0, 0]");
   EXPECT_NEAR(words.segment<4>(3).norm(), 1, 1e-12);
   EXPECT_GT(std::abs(words.segment<4>(3).dot(degrees.segment<4>(3))), std::cos(5 * kDegree));
 }
 
-TEST_F(HandRotation, PointsAnyHandAsItSays) {
+TEST_F(PalmRotation, PointsAnyHandAsItSays) {
   struct Case {
     std::string rotation;
     Eigen::Vector3d palm, fingers;
@@ -81,29 +81,38 @@ TEST_F(HandRotation, PointsAnyHandAsItSays) {
   }
 }
 
-TEST_F(HandRotation, IsAsTheFirstCameraSeesIt) {
-  Camera camera;
-  camera.camera_from_world.linear() =
-      Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  const Eigen::VectorXd state =
-      read(hand_, "rotation: {palm: to_camera, fingers: up}", std::span(&camera, 1));
-  const Eigen::Vector3d fingers = at(hand_, state, "index_mcp") + at(hand_, state, "little_mcp") -
-                                  2 * at(hand_, state, "wrist");
-  EXPECT_GT(
-      (camera.camera_from_world.linear() * fingers).normalized().dot(-Eigen::Vector3d::UnitY()),
-      0.99);
+/// A paw whose sole is no palm.
+class Paw final : public Model {
+ public:
+  Paw() : Model(test::make_test_box()) {}
+  std::vector<NamedDirection> directions() const override {
+    return {{"sole", {0.6, 0, 0.8}}, {"claws", Eigen::Vector3d::UnitY()}};
+  }
+};
+
+TEST(MirroredDirections, AreThoseOfTheOriginalIfItIsNoHand) {
+  PluginLoader plugins;
+  plugins.add(program_plugin<Model>("paw", [](PluginContext&) { return std::make_unique<Paw>(); }));
+  const auto left =
+      plugins.make<Model>(ConfigNode::parse("{type: mirrored_hand, of: {type: paw}}", "test"));
+  ASSERT_EQ(left->directions().size(), 2U);
+  EXPECT_EQ(left->directions()[0].name, "sole");
+  EXPECT_EQ(left->directions()[0].axis, Eigen::Vector3d(-0.6, 0, 0.8));
+  EXPECT_EQ(left->directions()[1].axis, Eigen::Vector3d::UnitY());
 }
 
-TEST_F(HandRotation, TurnsBothDirectionsAlikeUntilTheyArePerpendicular) {
-  const Eigen::VectorXd state = read(hand_, "rotation: {palm: [0, 0, -1], fingers: [0, -1, 0.36]}");
-  const Eigen::Vector3d fingers =
-      (at(hand_, state, "index_mcp") + at(hand_, state, "little_mcp")) / 2 -
-      at(hand_, state, "wrist");
-  const double tilt = std::atan2(fingers.z(), -fingers.y());
-  EXPECT_NEAR(tilt, std::atan(0.36) / 2, 3 * kDegree);
+TEST(ClearLandmarks, OfHandsAreThoseOfThePalmFirst) {
+  for (const char* hand : {"{type: hand}", "{type: mirrored_hand}"}) {
+    const auto model = PluginLoader().make<Model>(ConfigNode::parse(hand, "test"));
+    const std::vector<std::string> clear = model->clear_landmarks();
+    ASSERT_EQ(clear.size(), 10U) << hand;
+    EXPECT_EQ(clear.front(), "wrist") << hand;
+    for (const std::string& name : clear)
+      EXPECT_TRUE(std::ranges::count(model->data().landmarks, name, &Landmark::name) == 1) << name;
+  }
 }
 
-TEST_F(HandRotation, IsRefusedIfItIsNone) {
+TEST_F(PalmRotation, IsRefusedIfItIsNone) {
   EXPECT_THAT(refusal(hand_, "rotation: {palm: up, fingers: up}"),
               AllOf(HasSubstr("pose.yaml:1:"), HasSubstr("0 degrees apart"),
                     HasSubstr("60 to 120 degrees")));
@@ -116,12 +125,12 @@ TEST_F(HandRotation, IsRefusedIfItIsNone) {
   EXPECT_THAT(refusal(hand_, "rotation: {palm: up}"), HasSubstr("fingers"));
   EXPECT_THAT(refusal(hand_, "rotation_deg: [0, 0, 0], rotation: {palm: away, fingers: up}"),
               HasSubstr("both rotation_deg and rotation are given"));
-  const Scene box({{"hand", std::make_shared<Model>(test::make_test_box())}});
+  const Scene box = scene_of("{type: rigid_box, size_mm: [60, 80, 100]}");
   EXPECT_THAT(refusal(box, "rotation: {palm: away, fingers: up}"),
-              AllOf(HasSubstr("is no hand"), HasSubstr("rotation_deg")));
+              AllOf(HasSubstr("no directions"), HasSubstr("rotation_deg")));
 }
 
-TEST_F(HandRotation, SurvivesWritingAndReadingAPose) {
+TEST_F(PalmRotation, SurvivesWritingAndReadingAPose) {
   Eigen::VectorXd state = read(hand_,
                                "position_mm: [10, -20, 500], rotation: {palm: away, fingers: up}, "
                                "angles_deg: {index_flexion_1: 33.3}");

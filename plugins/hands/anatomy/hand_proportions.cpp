@@ -1,9 +1,9 @@
-#include "shape/hand_proportions.hpp"
+#include "hand_proportions.hpp"
 
 #include <string_view>
 #include <utility>
 
-namespace hypotrack::internal {
+namespace hypotrack {
 namespace {
 
 // Correlations with the palm's length, which is the scale, and with each other of the lengths of
@@ -40,14 +40,13 @@ double correlation(Kind a, Kind b) {
 
 }  // namespace
 
-Eigen::MatrixXd shape_correlations(std::span<const ShapeParameter> parameters) {
-  const auto size = static_cast<Eigen::Index>(parameters.size());
-  Eigen::MatrixXd out = Eigen::MatrixXd::Identity(size, size);
-  for (Eigen::Index i = 0; i < size; ++i)
-    for (Eigen::Index j = 0; j < i; ++j)
-      out(i, j) = out(j, i) = correlation(kind_of(parameters[static_cast<std::size_t>(i)].name),
-                                          kind_of(parameters[static_cast<std::size_t>(j)].name));
-  return out;
+void correlate_as_people(std::span<ShapeParameter> parameters) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    parameters[i].correlations.clear();
+    for (const ShapeParameter& earlier : parameters.first(i))
+      parameters[i].correlations.push_back(
+          correlation(kind_of(parameters[i].name), kind_of(earlier.name)));
+  }
 }
 
-}  // namespace hypotrack::internal
+}  // namespace hypotrack

@@ -2,17 +2,17 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
-#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
-inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Directions of a hand at rest in the model's frame: unit vectors, perpendicular to each other.
 struct PalmAxes {
   Eigen::Vector3d palm;     ///< out of the palm, to where the fingers bend
   Eigen::Vector3d fingers;  ///< from the wrist to the knuckles
+  bool right = true;        ///< the hand's side
 };
 
 /// Returns the directions of a model with the landmarks wrist, index_mcp, little_mcp and
@@ -20,5 +20,8 @@ struct PalmAxes {
 /// side.
 std::optional<PalmAxes> palm_axes(const Model& model);
 
-}  // namespace internal
+/// Returns palm_axes() as Model::directions() of a hand, `palm` and `fingers`; empty if there are
+/// none.
+std::vector<NamedDirection> palm_directions(const Model& model);
+
 }  // namespace hypotrack

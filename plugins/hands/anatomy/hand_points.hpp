@@ -2,7 +2,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace hypotrack {
 
@@ -23,15 +25,11 @@ inline constexpr std::array<std::string_view, 21> kHandPointNames = {
     "index_dip", "index_tip", "middle_mcp", "middle_pip", "middle_dip", "middle_tip", "ring_mcp",
     "ring_pip",  "ring_dip",  "ring_tip",   "little_mcp", "little_pip", "little_dip", "little_tip"};
 
-/// A hand that was found in a picture.
-struct HandDetection {
-  HandPoints landmarks;
-  double palm_score = 0;  ///< of the palm's box, 0 to 1; that of HandDetector::refine() is 1
-  double presence = 0;    ///< probability that there is a hand
-  double right = 0;       ///< probability that it is a right hand, if the picture is not mirrored
-  /// Shape of the hand in metres, about its own centre: x to the picture's right, y down, z away
-  /// from the camera. The size is that of an average hand.
-  HandPoints3D relative;
-};
+/// Returns the landmarks of a hand that people find best: wrist and knuckles, then the tips. They
+/// are a hand's Model::clear_landmarks().
+inline std::vector<std::string> clear_hand_landmarks() {
+  return {"wrist",     "index_mcp", "middle_mcp", "ring_mcp", "little_mcp",
+          "thumb_tip", "index_tip", "middle_tip", "ring_tip", "little_tip"};
+}
 
 }  // namespace hypotrack
