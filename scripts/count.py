@@ -34,9 +34,9 @@ NO_PRODUCT = ("lab/microbench/",)
 CODE = (".cpp", ".hpp", ".cu", ".cuh", ".h")
 PAGES = (".js", ".css", ".html", ".py", ".sh")
 HANDS = re.compile(r"\b(?:hand|finger|palm|thumb|wrist)s?\b", re.I)
-HANDS_IN_NAMES = re.compile(
-    r"(?:(?<![A-Za-z])(?:hand|finger|palm|thumb|wrist|HAND|FINGER|PALM|THUMB|WRIST)"
-    r"|(?<=[a-z])(?=[A-Z])(?:Hand|Finger|Palm|Thumb|Wrist)|(?<![A-Za-z])(?:Hand|Finger|Palm|Thumb|Wrist))s?(?![a-z])")
+HANDS_IN_NAMES = re.compile(  # also as parts of snake_case, CamelCase and UPPER_CASE
+    r"(?<![A-Za-z])(?:hand|finger|palm|thumb|wrist)s?(?![a-z])|(?:Hand|Finger|Palm|Thumb|Wrist)s?(?![a-z])"
+    r"|(?<![A-Za-z])(?:HAND|FINGER|PALM|THUMB|WRIST)S?(?![A-Za-z])")
 NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.S)
 NUMBER = re.compile(r"(?<![\w.])(?:0x[\da-fA-F]+|\d[\d']*\.?\d*(?:e[-+]?\d+)?|\.\d+)[fFuUlL]*(?![\w.])")
 FLAG = re.compile(
@@ -158,6 +158,8 @@ def self_test():
         (flags("  bool a_ = false;\n  int b, c;\n  double run(int n);\n  bool ok() const { return a_; }\n"), 3),
         (len(HANDS.findall("a hand, kHand, handle, left_hand, Fingers")), 2),
         (len(HANDS_IN_NAMES.findall("a hand, kHand, handle, left_hand, Fingers")), 4),
+        (len(HANDS_IN_NAMES.findall("two_thumbs_up, HandProportions, itsPalm, wristX, HANDS, K_FINGER, by hand")), 7),
+        (HANDS_IN_NAMES.findall("handler, beforehand, Handles, HANDLE, shorthand, unhandy, palmtree, chandler"), []),
         (len(search_types("class LimbSearch;\nclass PoseSearch final {\nstruct Search {\n")), 2),
     ]
     return [f"case {i}: {found}; expected {expected}" for i, (found, expected) in enumerate(cases) if found != expected]
