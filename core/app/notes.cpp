@@ -6,7 +6,7 @@
 
 #include "camera/pair_check.hpp"
 #include "tell.hpp"
-#include "track/faults/fault_text.hpp"
+#include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::app {
 

@@ -20,7 +20,6 @@
 #include "messages.hpp"
 #include "progress.hpp"
 #include "run/crew/crew.hpp"
-#include "run/crew/failure_message.hpp"
 #include "session/scene_file.hpp"
 #include "tell.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "cost/cuda/device.hpp"
 #include "lab/bench/frames.hpp"
-#include "output/frame_statuses.hpp"
+#include "output/metrics_output.hpp"
 #include "output/true_landmarks.hpp"
 #include "session/opened_scene.hpp"
 #include "track/loop/scene_tracker.hpp"

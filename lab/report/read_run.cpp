@@ -10,7 +10,7 @@
 #include "lab/run_numbers.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/run_folder.hpp"
-#include "output/row_count.hpp"
+#include "output/evaluation.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -10,7 +10,7 @@
 #include "cost/cuda/backend_text.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
-#include "run/crew/failure_message.hpp"
+#include "run/crew/crew.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

@@ -13,7 +13,7 @@
 #include "hypotrack/error.hpp"
 #include "lab/study/recordings.hpp"
 #include "lab/study/run_order.hpp"
-#include "run/crew/failure_message.hpp"
+#include "run/crew/crew.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

@@ -10,7 +10,7 @@
 #include "hypotrack/error.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/noise.hpp"
-#include "run/crew/failure_message.hpp"
+#include "run/crew/crew.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

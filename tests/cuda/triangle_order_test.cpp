@@ -1,11 +1,11 @@
-#include "cost/cuda/triangle_order.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 #include <random>
+
+#include "cost/cuda/device_scene.hpp"
 
 namespace hypotrack::cuda {
 namespace {

@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "plugin/library.hpp"
-#include "plugin/whole_file.hpp"
 #include "target.hpp"
 
 namespace hypotrack::fuzz {

@@ -22,5 +22,10 @@ double distance_from_line(const Eigen::Matrix2Xd& line, const Eigen::Vector2d& p
 /// outside the image.
 Eigen::Vector2d project_uniquely(const Camera& camera, const Eigen::Vector3d& p_world);
 
+/// Returns the world point nearest to the rays of two pixels, metres. NaN if the rays are parallel
+/// or nearest to each other behind a camera.
+Eigen::Vector3d triangulate(const Camera& a, const Eigen::Vector2d& in_a, const Camera& b,
+                            const Eigen::Vector2d& in_b);
+
 }  // namespace internal
 }  // namespace hypotrack

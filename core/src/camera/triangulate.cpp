@@ -1,8 +1,7 @@
-#include "camera/triangulate.hpp"
-
 #include <Eigen/LU>
 #include <limits>
 
+#include "camera/epipolar_line.hpp"
 #include "hypotrack/back_project.hpp"
 
 namespace hypotrack::internal {

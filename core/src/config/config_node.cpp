@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "config/extends.hpp"
 #include "config/includes.hpp"
 #include "config/overrides.hpp"
-#include "config/toml.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"

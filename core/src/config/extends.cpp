@@ -1,5 +1,3 @@
-#include "config/extends.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "config/file_name.hpp"
+#include "config/includes.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail::internal {

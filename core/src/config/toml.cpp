@@ -1,11 +1,10 @@
-#include "config/toml.hpp"
-
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <string>
 #include <utility>
 
+#include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail::internal {

@@ -12,7 +12,6 @@
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
-#include "output/row_count.hpp"
 #include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"
 #include "output/true_landmarks.hpp"

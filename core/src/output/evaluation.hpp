@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -34,6 +35,10 @@ struct Evaluation {
 /// on missing, damaged and cut files, landmarks that only the run has, no frame or landmark in
 /// common, and tables in different units.
 Evaluation evaluate(const EvaluationInput& input);
+
+/// Throws DataError unless a table of a run has one row for each frame that its summary.json
+/// counts. Tables without a summary beside them, of other trackers, pass.
+void expect_row_per_frame(const std::filesystem::path& table, std::size_t rows);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -4,11 +4,18 @@
 
 #include "hypotrack/picture.hpp"
 #include "hypotrack/text_file.hpp"
-#include "output/frame_statuses.hpp"
 #include "output/run_directory.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack::internal {
+
+FrameStatuses statuses_of(const Scene& scene, const Solution& solution) {
+  FrameStatuses out{status_named(to_string(solution.status)).value()};
+  for (std::size_t m = 0; m < solution.models.size(); ++m)
+    if (!scene.items()[m].model->data().landmarks.empty())
+      out.models.push_back(status_named(to_string(solution.models[m])).value());
+  return out;
+}
 
 std::vector<std::string> MetricsOutput::file_names() const {
   return {"truth_states.csv", "truth_landmarks.csv", "errors.csv",   "uncertainty.csv", "trace.csv",

@@ -10,7 +10,9 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/output.hpp"
+#include "hypotrack/scene.hpp"
 #include "output/metrics/metrics.hpp"
+#include "output/metrics/status_metrics.hpp"
 #include "output/summary.hpp"
 #include "output/trace_output.hpp"
 #include "output/truth_output.hpp"
@@ -76,6 +78,9 @@ class MetricsOutput final : public Output {
   std::int64_t evaluations_ = 0;
   std::map<std::string, int> faults_;
 };
+
+/// Returns a solution's statuses of the frame and of each model that has landmarks.
+FrameStatuses statuses_of(const Scene& scene, const Solution& solution);
 
 }  // namespace internal
 }  // namespace hypotrack

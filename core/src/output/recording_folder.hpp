@@ -6,6 +6,7 @@
 
 #include "base/exported.hpp"
 #include "base/open_folder.hpp"
+#include "session/scene_file.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -47,6 +48,10 @@ class RecordingFolder {
   std::optional<OpenFolder> parent_, part_;
   bool done_ = false;
 };
+
+/// Copies the files that a scene's start reads into a folder, as start_NAME. Returns `init` as YAML
+/// that names the copies; a file that does not exist keeps its absolute path. Throws OutputError.
+std::string copy_start_files(const InitSettings& init, const std::filesystem::path& folder);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -12,7 +12,7 @@
 #include "hypotrack/disk.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
-#include "output/start_files.hpp"
+#include "output/recording_folder.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack::internal {

@@ -1,5 +1,3 @@
-#include "output/row_count.hpp"
-
 #include <fmt/format.h>
 
 #include <fstream>
@@ -7,6 +5,7 @@
 
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
+#include "output/evaluation.hpp"
 #include "output/run_directory.hpp"
 
 namespace hypotrack::internal {

@@ -1,5 +1,3 @@
-#include "output/start_files.hpp"
-
 #include <fmt/format.h>
 
 #include <system_error>
@@ -7,6 +5,7 @@
 #include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
+#include "output/recording_folder.hpp"
 
 namespace hypotrack::internal {
 namespace {

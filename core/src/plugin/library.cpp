@@ -9,7 +9,6 @@
 #include <set>
 
 #include "hypotrack/error.hpp"
-#include "plugin/whole_file.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -45,6 +46,11 @@ const HypotrackPlugin& descriptor_of(void* library);
 /// Returns why this hypotrack cannot use a plugin, with both sides of the mismatch; empty if it
 /// can. Checks that a member exists before it reads it.
 std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expected);
+
+/// Returns the size in bytes that an ELF file must have by its headers. Detects truncated files:
+/// the dynamic linker maps them as if complete, and the program then dies of SIGBUS. Returns 0 if
+/// the file is not an ELF file of this machine's word size or lacks a whole first header.
+std::uintmax_t elf_size(const std::filesystem::path& file);
 
 }  // namespace internal
 }  // namespace hypotrack::detail

@@ -12,8 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "plugin/signal_stack.hpp"
-
 namespace hypotrack::detail::internal {
 namespace {
 

@@ -56,5 +56,9 @@ std::optional<int> running_frame();
 /// that signal handlers may call it.
 void report_end(const char* ends);
 
+/// Gives the calling thread a second stack for signal handlers, unless it has one: none can run on
+/// a stack that is full.
+void ensure_signal_stack();
+
 }  // namespace internal
 }  // namespace hypotrack::detail

@@ -1,9 +1,9 @@
-#include "plugin/signal_stack.hpp"
-
 #include <csignal>
 #include <cstddef>
 #include <memory>
 #include <new>
+
+#include "plugin/running_plugin.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -1,5 +1,3 @@
-#include "plugin/whole_file.hpp"
-
 #include <elf.h>
 #include <link.h>
 
@@ -7,6 +5,8 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+
+#include "plugin/library.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

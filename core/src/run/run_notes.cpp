@@ -7,7 +7,7 @@
 
 #include "cost/cuda/backend_text.hpp"
 #include "cost/cuda/device.hpp"
-#include "track/faults/fault_text.hpp"
+#include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::internal {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scene/pose_kernel.hpp"
+#include "scene/simd_kernels.hpp"
 
 namespace hypotrack::internal {
 

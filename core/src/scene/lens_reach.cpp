@@ -1,5 +1,3 @@
-#include "scene/lens_reach.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "camera/distort.hpp"
 #include "camera/distortion.hpp"
 #include "camera/interval_number.hpp"
+#include "scene/visible_share.hpp"
 
 namespace hypotrack::internal {
 namespace {

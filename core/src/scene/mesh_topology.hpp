@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
@@ -10,6 +12,10 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// of equal orientation, and every connected part encloses a positive volume. From outside, the
 /// nearest surface faces the camera, so that back faces need not be drawn.
 bool is_closed_outwards(const Mesh& mesh);
+
+/// Returns the vertex indices sorted so that neighbours have the same bones. Vectors and warps of
+/// vertices then read the same matrices.
+std::vector<int> order_by_bones(const Mesh& mesh);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -1,5 +1,5 @@
 // Compiled once per instruction set: an include below includes this file again.
-#include "scene/pose_kernel.hpp"
+#include "scene/simd_kernels.hpp"
 
 #define HWY_TARGET_INCLUDE "scene/pose_kernel.cpp"
 #include <algorithm>

@@ -8,7 +8,6 @@
 
 #include "scene/mesh_topology.hpp"
 #include "scene/quantized_weights.hpp"
-#include "scene/vertex_order.hpp"
 
 namespace hypotrack::internal {
 namespace {

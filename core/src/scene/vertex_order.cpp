@@ -1,8 +1,8 @@
-#include "scene/vertex_order.hpp"
-
 #include <algorithm>
 #include <array>
 #include <numeric>
+
+#include "scene/mesh_topology.hpp"
 
 namespace hypotrack::internal {
 namespace {

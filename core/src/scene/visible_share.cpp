@@ -5,7 +5,6 @@
 
 #include "camera/distort.hpp"
 #include "camera/distortion.hpp"
-#include "scene/lens_reach.hpp"
 #include "scene/point_block.hpp"
 
 namespace hypotrack::internal {

@@ -42,5 +42,11 @@ class VisibleShare {
   std::vector<SeenBy> views_;
 };
 
+/// Returns true only if the camera's image surely shows everything within an ideal camera's bounds,
+/// except the image's outermost pixel. False proves nothing. The ideal camera is at the same place;
+/// `camera_from_ideal` is a rotation.
+bool surely_shown(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal,
+                  const Bounds& bounds);
+
 }  // namespace internal
 }  // namespace hypotrack

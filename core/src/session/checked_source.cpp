@@ -7,7 +7,7 @@
 
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
-#include "tile/frame_checks.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack::internal {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "camera/epipolar_line.hpp"
-#include "camera/triangulate.hpp"
 #include "hypotrack/clicks.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"

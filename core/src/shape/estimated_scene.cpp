@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shape/replay_source.hpp"
-#include "shape/size_by_starts.hpp"
+#include "shape/shape_estimate.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,10 +1,9 @@
-#include "shape/size_by_starts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "shape/shape_estimate.hpp"
 
 namespace hypotrack::internal {
 namespace {

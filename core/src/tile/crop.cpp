@@ -1,6 +1,6 @@
-#include "tile/crop.hpp"
-
 #include <algorithm>
+
+#include "tile/tiles.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,5 +1,3 @@
-#include "tile/frame_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -7,6 +5,7 @@
 #include <string>
 
 #include "hypotrack/error.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack::internal {
 namespace {

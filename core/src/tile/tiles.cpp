@@ -11,9 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "scene/posed_scene.hpp"
 #include "scene/visible_share.hpp"
-#include "tile/crop.hpp"
 #include "tile/foreground_overlap.hpp"
-#include "tile/frame_checks.hpp"
 
 namespace hypotrack::internal {
 namespace {

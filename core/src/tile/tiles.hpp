@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "camera/rectification.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
@@ -85,6 +86,16 @@ class TileMaker {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Returns the cameras of size x size pixel tiles around bounds. The margin on each side is
+/// `padding` times the larger extent. No tile is wider than `largest_focal` pixels at z = 1. Tiles
+/// of a rectified pair share rows and scale.
+std::vector<TileCamera> crop(std::span<const Bounds> around, const IdealRig& rig, int size,
+                             double padding, double largest_focal);
+
+/// Throws DataError unless a frame has a view per camera, with pictures of its size and of the
+/// right types.
+void check_views(const Frame& frame, const std::vector<Camera>& cameras);
 
 }  // namespace internal
 }  // namespace hypotrack

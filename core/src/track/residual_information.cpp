@@ -1,8 +1,8 @@
-#include "track/residual_information.hpp"
-
 #include <algorithm>
 #include <cstring>
 #include <vector>
+
+#include "track/uncertainty.hpp"
 
 namespace hypotrack::internal {
 namespace {

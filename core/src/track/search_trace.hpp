@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "hypotrack/search.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -37,10 +38,20 @@ struct FrameTrace {
 class SearchTracer {
  public:
   /// `search` must outlive the tracer.
-  explicit SearchTracer(TracedSearch& search);
+  explicit SearchTracer(TracedSearch& search)
+      : search_(search),
+        cpu_begin_(seconds_of(SearchClock::cpu)),
+        wall_begin_(seconds_of(SearchClock::wall)) {}
 
   /// Adds a step, unless nothing was evaluated since the last one and the cost is the same.
-  void add(std::int64_t evaluations, double cost);
+  void add(std::int64_t evaluations, double cost) {
+    if (!search_.steps.empty()) {
+      const TraceStep& last = search_.steps.back();
+      if (last.evaluations == evaluations && last.cost == cost) return;
+    }
+    search_.steps.push_back({evaluations, cost, seconds_of(SearchClock::cpu) - cpu_begin_,
+                             seconds_of(SearchClock::wall) - wall_begin_});
+  }
 
  private:
   TracedSearch& search_;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "track/residual_information.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack::internal {

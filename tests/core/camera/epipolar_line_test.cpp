@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "camera/triangulate.hpp"
 #include "hypotrack/back_project.hpp"
 
 namespace hypotrack {

@@ -1,10 +1,9 @@
-#include "scene/lens_reach.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
+#include "scene/visible_share.hpp"
 #include "test_cameras.hpp"
 
 namespace hypotrack {

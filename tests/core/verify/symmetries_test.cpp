@@ -1,8 +1,7 @@
-#include "track/verify/symmetries.hpp"
-
 #include <gtest/gtest.h>
 
 #include "test_models.hpp"
+#include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
 namespace {

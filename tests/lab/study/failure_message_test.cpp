@@ -1,5 +1,4 @@
-#include "run/crew/failure_message.hpp"
-
+#include "run/crew/crew.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cost/cuda/triangle_order.hpp"
 #include "hypotrack/skeleton.hpp"
 #include "scene/mesh_topology.hpp"
 #include "scene/quantized_weights.hpp"
-#include "scene/vertex_order.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

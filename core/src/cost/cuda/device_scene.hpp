@@ -5,6 +5,7 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/model.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack::cuda {
@@ -31,6 +32,10 @@ class DeviceScene {
   DeviceBuffer<PackedTriangle> triangles_;
   SceneLayout layout_{};
 };
+
+/// Returns the triangle indices sorted so that neighbours are close and face the same way. A warp
+/// then usually finds all of its triangles visible or none.
+std::vector<int> order_by_place(const Mesh& mesh);
 
 }  // namespace internal
 }  // namespace hypotrack::cuda

@@ -1,9 +1,8 @@
-#include "cost/cuda/frame_layout.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "cost/cuda/tile_upload.hpp"
 #include "cost/hypothesis_drawer.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/stereo_pixels.hpp"

@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "cost/cuda/frame_layout.hpp"
 #include "cost/cuda/image_upload.hpp"
 #include "cost/cuda/tile_kernels.hpp"
+#include "cost/cuda/tile_upload.hpp"
 #include "cost/cuda/view_resampling.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cost/cuda/frame_layout.hpp"
 #include "cost/cuda/transfer.hpp"
 
 namespace hypotrack::cuda::internal {

@@ -3,6 +3,8 @@
 #include <array>
 
 #include "base/exported.hpp"
+#include "cost/cuda/load_balance.hpp"
+#include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/observation.hpp"
 
@@ -26,6 +28,10 @@ class TileUpload {
   DeviceBuffer<FrameLayout> layout_{1};
   PinnedBuffer<FrameLayout> layout_staging_{1};
 };
+
+/// Returns the cameras of an observation in the kernels' form. Throws DeviceError on more than
+/// kMaxViews views.
+FrameLayout frame_layout(const Observation& observation, const BandEnds& bands = even_bands());
 
 }  // namespace internal
 }  // namespace hypotrack::cuda

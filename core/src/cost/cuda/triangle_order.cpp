@@ -1,8 +1,8 @@
-#include "cost/cuda/triangle_order.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+
+#include "cost/cuda/device_scene.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

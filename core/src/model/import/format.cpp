@@ -14,7 +14,6 @@
 
 #include "hypotrack/error.hpp"
 #include "model/import/ply_header.hpp"
-#include "model/import/text_mesh.hpp"
 
 namespace hypotrack::internal {
 namespace {

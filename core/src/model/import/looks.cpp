@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "model/import/srgb.hpp"
-#include "model/import/texture.hpp"
+#include "model/import/steps.hpp"
 
 namespace hypotrack::internal {
 namespace {

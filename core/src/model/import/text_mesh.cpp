@@ -1,5 +1,3 @@
-#include "model/import/text_mesh.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -13,6 +11,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "model/import/format.hpp"
 
 namespace hypotrack::internal {
 namespace {

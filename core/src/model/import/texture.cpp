@@ -1,5 +1,3 @@
-#include "model/import/texture.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 #include "hypotrack/text_file.hpp"
+#include "model/import/steps.hpp"
 
 namespace hypotrack::internal {
 namespace {

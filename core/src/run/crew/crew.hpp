@@ -63,5 +63,9 @@ class Crew {
   GpuWorkers workers_;
 };
 
+/// Returns why a program failed: hypotrack's own message in its log, or else how it ended and the
+/// log's last line.
+std::string failure_message(const std::filesystem::path& log, const Ended& ended);
+
 }  // namespace internal
 }  // namespace hypotrack

@@ -1,11 +1,11 @@
-#include "run/crew/failure_message.hpp"
-
 #include <fmt/format.h>
 #include <string.h>
 
 #include <algorithm>
 #include <fstream>
 #include <string_view>
+
+#include "run/crew/crew.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,6 +1,6 @@
-#include "track/color/extrapolate.hpp"
-
 #include <opencv2/imgproc.hpp>
+
+#include "track/color/color_samples.hpp"
 
 namespace hypotrack::internal {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "track/color/color_fit.hpp"
-#include "track/color/extrapolate.hpp"
+#include "track/color/color_samples.hpp"
 
 namespace hypotrack::internal {
 namespace {

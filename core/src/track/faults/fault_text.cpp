@@ -1,8 +1,8 @@
-#include "track/faults/fault_text.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
+
+#include "track/faults/picture_checks.hpp"
 
 namespace hypotrack {
 namespace {

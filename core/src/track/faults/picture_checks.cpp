@@ -5,8 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "track/faults/fault_text.hpp"
-
 namespace hypotrack::internal {
 namespace {
 
@@ -15,7 +13,7 @@ namespace {
 bool is_same(const SmallPicture& a, const SmallPicture& b) {
   constexpr int kRowStep = 3;
   constexpr std::int64_t kTimes = 20;
-  constexpr std::int64_t kLeast = SmallPicture::kLevel;  // mean difference a cell aside
+  constexpr std::int64_t kTextured = SmallPicture::kLevel;  // mean difference a cell aside
   if (a.width != b.width || a.height != b.height) return false;
   std::int64_t between = 0, beside = 0, count = 0;
   for (int y = 0; y < a.height; y += kRowStep) {
@@ -27,7 +25,7 @@ bool is_same(const SmallPicture& a, const SmallPicture& b) {
     }
     count += a.width - 1;
   }
-  return beside >= kLeast * count && beside >= kTimes * between;
+  return beside >= kTextured * count && beside >= kTimes * between;
 }
 
 /// Returns by how much a picture is brighter than the one before, if most of its cells are far

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -49,6 +50,13 @@ class PictureChecks {
   SmallPictures good_;              ///< of the last frame without such a fault; empty: none yet
   std::vector<float> jumps_, drifts_;
 };
+
+/// Returns whether a frame with this fault has pictures that must not be searched.
+bool spoils_pictures(FrameFault fault);
+
+/// Describes a fault for the user: the finding, the tracker's reaction, and the remedy. `view` is
+/// the view that has it, negative: all. Empty for FrameFault::none.
+std::string describe(FrameFault fault, int view);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -1,7 +1,7 @@
 #include "track/loop/picture_watch.hpp"
 
 #include "base/profile.hpp"
-#include "track/faults/fault_text.hpp"
+#include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::internal {
 

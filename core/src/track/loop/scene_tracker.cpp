@@ -10,7 +10,7 @@
 #include "base/profile.hpp"
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
-#include "track/faults/fault_text.hpp"
+#include "track/faults/picture_checks.hpp"
 #include "track/loop/setup.hpp"
 #include "track/loop/steps.hpp"
 

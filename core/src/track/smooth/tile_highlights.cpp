@@ -2,7 +2,7 @@
 
 #include "tile/resample.hpp"
 #include "track/color/color_fit.hpp"
-#include "track/color/extrapolate.hpp"
+#include "track/color/color_samples.hpp"
 
 namespace hypotrack::internal {
 

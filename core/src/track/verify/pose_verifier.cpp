@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "track/verify/symmetries.hpp"
+#include "track/verify/surface_points.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <opencv2/core/types.hpp>
 #include <vector>
 
@@ -29,6 +30,10 @@ Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& 
 /// Returns the colours (B, G, R, 0 .. 255) of a mesh's texture at its points, each the mean over a
 /// square of `side` metres. Returns none without a texture.
 std::vector<cv::Vec3f> texture_colors(const Mesh& mesh, const SurfacePoints& points, double side);
+
+/// Returns the motions of a mesh, other than the identity, that put its surface onto itself. Tries
+/// quarter and half turns about its axes of inertia and those of its file.
+std::vector<Eigen::Isometry3d> symmetries(const Mesh& mesh);
 
 }  // namespace internal
 }  // namespace hypotrack

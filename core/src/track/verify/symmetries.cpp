@@ -1,4 +1,3 @@
-#include "track/verify/symmetries.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

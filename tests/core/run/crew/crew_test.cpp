@@ -15,7 +15,6 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
-#include "run/crew/failure_message.hpp"
 #include "run/crew/scratch_folder.hpp"
 #include "test_paths.hpp"
 
