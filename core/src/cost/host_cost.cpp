@@ -19,7 +19,6 @@
 #include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_renderer.hpp"
 #include "cost/linearizer_pool.hpp"
-#include "cost/normal_equations.hpp"
 #include "cost/term_residuals.hpp"
 
 namespace hypotrack::internal {

@@ -1,7 +1,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "cost/normal_equations.hpp"
+#include "cost/difference_blocks.hpp"
 #include "hypotrack/optimizer.hpp"
 
 namespace hypotrack {

@@ -1,8 +1,7 @@
-#include "track/term_maps.hpp"
-
 #include <algorithm>
 
 #include "cost/hypothesis_renderer.hpp"
+#include "track/loop/frame_record.hpp"
 
 namespace hypotrack::internal {
 namespace {

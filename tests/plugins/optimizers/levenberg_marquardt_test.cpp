@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "cost/normal_equations.hpp"
+#include "cost/difference_blocks.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "limb_search.hpp"

@@ -1,7 +1,5 @@
 #include "track/loop/frame_record.hpp"
 
-#include "track/term_maps.hpp"
-
 namespace hypotrack::internal {
 
 FrameRecord::FrameRecord(const Scene& scene, FrameSearch& search, const Frame& frame,

@@ -36,5 +36,9 @@ class FrameRecord {
   FrameTrace* trace_;
 };
 
+/// Draws the state of a record into the tiles of its observation and adds the depths, and the maps
+/// of those terms that have some. Prepares these terms with the observation.
+void draw_maps(const Scene& scene, const std::vector<ObjectiveTerm>& terms, SearchRecord& record);
+
 }  // namespace internal
 }  // namespace hypotrack
