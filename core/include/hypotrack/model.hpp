@@ -92,7 +92,7 @@ struct ShapeParameter {
   std::vector<double> correlations = {};
 };
 
-/// A direction of a model at rest by which scenes may give its rotation (`rotation: {lid: up}`).
+/// A direction of a model at rest by which scenes may give its rotation (`{lid: up, front: away}`).
 struct NamedDirection {
   std::string name;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector in the model's frame
