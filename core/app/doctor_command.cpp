@@ -18,6 +18,7 @@
 #include "doctor/table.hpp"
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
+#include "lab_commands.hpp"
 #include "scene/simd_kernels.hpp"
 
 namespace hypotrack::app {
@@ -61,12 +62,10 @@ bool is_on_path(std::string_view program) {
 
 Check check_lab() {
   Check check{.name = "lab commands", .found = "compare, bench, reliability, report"};
-  if (const std::string why = HYPOTRACK_WHY_NO_LAB; !why.empty()) {
+  if (const LabAbsence& absence = lab().absence; !absence.why.empty()) {
     check.state = State::missing;
-    check.found = "compare, bench, reliability and report are not in this build: " + why;
-    check.fix =
-        "sudo apt-get install libboost-dev libjs-three libjs-vega, then build again with "
-        "-DHYPOTRACK_LAB=ON";
+    check.found = "compare, bench, reliability and report are absent: " + absence.why;
+    check.fix = absence.fix;
   }
   return check;
 }

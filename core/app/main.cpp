@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/plugin.hpp"
+#include "lab_commands.hpp"
 #include "messages.hpp"
 #include "plugin/crash_report.hpp"
 #include "tell.hpp"
@@ -59,15 +60,15 @@ int main(int argc, char** argv) {
   add_validate_command(root, common, exit_code);
   add_start_command(root, common, exit_code);
   add_fit_shape_command(root, common, exit_code);
-  add_fit_judge_command(root, common, exit_code);
+  lab().commands->add_fit_judge(root, common, exit_code);
   add_record_command(root, common, exit_code);
   add_synth_command(root, common, exit_code);
   add_evaluate_command(root, exit_code);
-  add_reliability_command(root, exit_code);
-  add_compare_command(root, common, exit_code);
-  add_bench_command(root, common, exit_code);
-  add_report_command(root, common, exit_code);
-  add_landscape_command(root, common, exit_code);
+  lab().commands->add_reliability(root, exit_code);
+  lab().commands->add_compare(root, common, exit_code);
+  lab().commands->add_bench(root, common, exit_code);
+  lab().commands->add_report(root, common, exit_code);
+  lab().commands->add_landscape(root, common, exit_code);
   add_calibrate_command(root, common, exit_code);
   add_calibration_command(root, exit_code);
   add_plugins_command(root, common, exit_code);

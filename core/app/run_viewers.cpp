@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "lab_commands.hpp"
 #include "tell.hpp"
 #include "viewing/preview.hpp"
 #include "window/display.hpp"
@@ -26,7 +27,7 @@ void open_web(const ViewerOptions& options, LiveRun& live) {
   web.port = *options.web_port;
   web.token = std::move(token.word);
   web.token_source = std::move(token.source);
-  std::unique_ptr<LiveView> page = open_live_view(web, live.controls());
+  std::unique_ptr<LiveView> page = lab().commands->open_live_view(web, live.controls());
   tell("live view: {}\n", page->address());
   live.add(std::move(page));
 }

@@ -10,21 +10,22 @@ using LabAbsentTest = AppTest;
 TEST_F(LabAbsentTest, CommandsOfTheLabSayWhatIsMissingAndWhatToInstall) {
   for (const std::string command : {"compare", "bench", "landscape", "reliability", "report"}) {
     const Outcome outcome = run_program({command, "study.yaml", "--out", path("out").string()});
-    expect_refusal(outcome, {"`hypotrack " + command + "` is not in this program, because ",
-                             "install libboost-dev, libjs-three, libjs-vega and libcpp-httplib-dev",
-                             "configure with -DHYPOTRACK_LAB=ON"});
+    expect_refusal(outcome,
+                   {"`hypotrack " + command + "` needs the lab, which is absent: ",
+                    "apt-get install libboost-dev libjs-three libjs-vega libcpp-httplib-dev",
+                    "build again with -DHYPOTRACK_LAB=ON"});
   }
 }
 
-TEST_F(LabAbsentTest, TheHelpSaysThatTheyAreNotInTheBuild) {
+TEST_F(LabAbsentTest, TheHelpSaysThatTheyAreNotInstalled) {
   const Outcome help = run_program({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  EXPECT_THAT(help.out, testing::ContainsRegex("compare .*\\(not in this build\\)"));
+  EXPECT_THAT(help.out, testing::ContainsRegex("compare .*\\(not installed\\)"));
 }
 
 TEST_F(LabAbsentTest, DoctorSaysWhatIsMissingAndWhatToInstall) {
   EXPECT_THAT(run_program({"doctor"}).out,
-              testing::ContainsRegex("missing +lab commands .*not in this build: [^\n]*\n"
+              testing::ContainsRegex("missing +lab commands .* are absent: [^\n]*\n"
                                      " +fix: sudo apt-get install libboost-dev"));
 }
 

@@ -256,9 +256,9 @@ class PreviewTest(unittest.TestCase):
             self.assertEqual([int(line.split(",")[0]) for line in lines], list(range(count)))
 
     def test_window_and_page_steer_the_same_run(self):
-        if "not in this build" in subprocess.run((PROGRAM, "--help"), capture_output=True, text=True,
+        if "(not installed)" in subprocess.run((PROGRAM, "--help"), capture_output=True, text=True,
                                                  check=True).stdout:
-            self.skipTest("the page is part of the lab, which is not in this build")
+            self.skipTest("the page is part of the lab, which is absent")
         self.start("--web", "0")
         page = re.search(r"live view: (http://\S+)\n", self.said()).group(1)
 
