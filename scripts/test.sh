@@ -26,16 +26,18 @@ esac
 
 source scripts/setup.sh
 install_missing_packages packages-test.txt
-scripts/get_hand_detector.sh || echo "The tests of the hand detector will be skipped." >&2
+install_missing_packages packages-detector.txt
+
+# build_dev TARGET: builds it and gets the hand detector, without which its tests are skipped.
+build_dev() {
+  configure dev
+  cmake --build --preset "$1"
+  build/dev/bin/hypotrack get detector || echo "The tests of the hand detector will be skipped." >&2
+}
 
 # run_tests PRESET [OPTION...]: options are for ctest. Many tests wait for most of their time.
 run_tests() {
   ctest --preset "$1" -j "$(($(nproc) + 1))" "${@:2}"
-}
-
-build_first() {
-  configure dev
-  cmake --build --preset first
 }
 
 with_sanitizers() {
@@ -45,16 +47,16 @@ with_sanitizers() {
 
 case $mode in
   --first)
-    build_first
+    build_dev first
     run_tests first
     ;;
   --all)
-    build dev
+    build_dev dev
     run_tests dev
     with_sanitizers
     ;;
   --deal)
-    if [ "$hand" = 10 ]; then build_first; else build dev; fi
+    if [ "$hand" = 10 ]; then build_dev first; else build_dev dev; fi
     run_tests first
     if [ "$hand" = 10 ]; then
       echo "Hand 10 of the rest: the tests with sanitizers"

@@ -41,6 +41,7 @@ void add_plugins_command(const Command& root, CommonOptions& common, int& exit_c
 /// Adds the command `new` below `plugins`.
 void add_new_plugin_command(const Command& plugins, CommonOptions& common, int& exit_code);
 void add_new_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_get_command(const Command& root);
 void add_migrate_command(const Command& root);
 void add_doctor_command(const Command& root, CommonOptions& common, int& exit_code);
 /// Adds a hidden command, a worker of `run` and `compare`.

@@ -109,7 +109,7 @@ std::vector<Check> all_checks(const CommonOptions& common) {
                                           "--set output.overlay=false"}));
   checks.push_back(doctor::run_probe({.name = "hand detector",
                                       .word = "hand_detector",
-                                      .if_it_crashes = "scripts/get_hand_detector.sh"}));
+                                      .if_it_crashes = "hypotrack get detector"}));
   checks.push_back(doctor::check_cameras("/dev", "/sys/class/video4linux"));
   checks.push_back(check_data());
   std::ranges::copy(doctor::check_plugins(common.plugin_path), std::back_inserter(checks));

@@ -73,6 +73,7 @@ int main(int argc, char** argv) {
   add_calibration_command(root, exit_code);
   add_plugins_command(root, common, exit_code);
   add_new_command(root, common, exit_code);
+  add_get_command(root);
   add_migrate_command(root);
   add_doctor_command(root, common, exit_code);
   add_work_command(root, common, exit_code);

@@ -1,7 +1,6 @@
-#!/usr/bin/env python3
 """Converts MediaPipe's palm detectors and hand landmark networks from TensorFlow Lite to flat files.
 
-    convert.py IN.tflite OUT.net
+    python3 convert.py IN.tflite OUT.net
 
 A flat file is a line of text per step, then all weights, 32-bit floats, in the order of the steps. Tensor 0
 is the picture, RGB from 0 to 1; each step makes the next tensor. Tensors are [y, x, channel], weights of

@@ -7,7 +7,7 @@
 namespace hypotrack::doctor {
 
 Check probe_hand_detector() {
-  const std::string script = "scripts/get_hand_detector.sh";
+  const std::string command = "hypotrack get detector";
   try {
     const std::filesystem::path folder = HandDetector::default_folder();
     const bool any = std::filesystem::is_directory(folder);
@@ -15,10 +15,10 @@ Check probe_hand_detector() {
       (void)HandDetector({.folder = folder});
       return {.found = folder.string() + ": its networks load"};
     } catch (const DataError& e) {
-      return {.state = any ? State::broken : State::missing, .found = e.what(), .fix = script};
+      return {.state = any ? State::broken : State::missing, .found = e.what(), .fix = command};
     }
   } catch (const DataError& e) {
-    return {.state = State::missing, .found = e.what(), .fix = "set HOME, then run " + script};
+    return {.state = State::missing, .found = e.what(), .fix = "set HOME, then run " + command};
   }
 }
 

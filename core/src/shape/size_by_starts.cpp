@@ -50,7 +50,7 @@ ShapeEstimate size_by_starts(OpenedScene session, const ShapeEstimateSettings& s
   if (std::ranges::none_of(session.parts.starts, knows))
     throw ConfigError(
         "shape.from: no start recognises the models; expected `init: {from: auto}` with a "
-        "detector of such models, or `shape.from: images`");
+        "detector of such models (`hypotrack get detector`), or `shape.from: images`");
   const std::vector<Camera> cameras = session.source->cameras();
   std::vector<double> factors;
   ShapeEstimate out;

@@ -16,7 +16,7 @@ namespace hypotrack {
 class HandDetector {
  public:
   struct Options {
-    /// Where scripts/get_hand_detector.sh has put the networks; empty: default_folder().
+    /// Where `hypotrack get detector` has put the networks; empty: default_folder().
     std::filesystem::path folder{};
     bool lite = false;            ///< smaller networks: quicker, less accurate
     double palm_threshold = 0.5;  ///< score of a sure palm; a fifth of it if no hand is found so
@@ -27,7 +27,7 @@ class HandDetector {
     double smallest_hand = 50;
   };
 
-  /// Reads the networks. Throws DataError, naming scripts/get_hand_detector.sh, if one is missing
+  /// Reads the networks. Throws DataError, naming `hypotrack get detector`, if one is missing
   /// or damaged, and ConfigError for options out of range.
   explicit HandDetector(Options options);
   ~HandDetector();

@@ -23,7 +23,7 @@ class Network {
   using WritePicture = std::function<void(std::span<float>)>;
 
   /// Reads the file, unless another Network has it. Throws DataError, naming the file and
-  /// scripts/get_hand_detector.sh, if it is missing, is damaged or does not take square pictures of
+  /// `hypotrack get detector`, if it is missing, is damaged or does not take square pictures of
   /// `side` pixels to these outputs.
   Network(const std::filesystem::path& file, int side, const std::vector<ExpectedOutput>& outputs);
 

@@ -25,7 +25,7 @@ std::string read_bytes(const std::filesystem::path& file) {
     const bool is_old =
         std::filesystem::exists(std::filesystem::path(file).replace_extension("onnx"), error);
     throw DataError(fmt::format(
-        "{}: the hand detector needs this file{}; run scripts/get_hand_detector.sh", file.string(),
+        "{}: the hand detector needs this file{}; run `hypotrack get detector`", file.string(),
         is_old ? ", and its folder has those of an earlier version" : ""));
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
@@ -82,9 +82,9 @@ NetworkGraph read_network(const std::filesystem::path& file) {
 }
 
 void fail_damaged(const std::filesystem::path& file, const std::string& reason) {
-  throw DataError(fmt::format(
-      "{}: the hand detector's network is damaged ({}); run scripts/get_hand_detector.sh",
-      file.string(), reason));
+  throw DataError(
+      fmt::format("{}: the hand detector's network is damaged ({}); run `hypotrack get detector`",
+                  file.string(), reason));
 }
 
 }  // namespace hypotrack::hands

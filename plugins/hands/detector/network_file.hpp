@@ -57,7 +57,7 @@ struct NetworkGraph {
 
 /// Reads a network that tools/hand_detector/convert.py wrote. Tensors are no larger than the limits
 /// in the source, and steps and outputs name tensors of earlier steps only. Throws DataError,
-/// naming the file, the line and scripts/get_hand_detector.sh, if it is missing or damaged.
+/// naming the file, the line and `hypotrack get detector`, if it is missing or damaged.
 NetworkGraph read_network(const std::filesystem::path& file);
 
 /// Throws the DataError of a file that is damaged for a reason.

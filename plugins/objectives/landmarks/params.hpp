@@ -34,7 +34,7 @@ struct LandmarksParams {
        .min = 0,
        .max = 1000});
     v("folder", folder,
-      {.help = "folder of the detector from scripts/get_hand_detector.sh; default: the one that "
+      {.help = "folder of the detector from `hypotrack get detector`; default: the one that "
                "the script uses"});
     v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
   }

@@ -26,7 +26,7 @@ class HandLandmarks final : public Start {
     double smallest_hand = 50;
     void visit(ParamVisitor& v) {
       v("folder", folder,
-        {.help = "folder of the detector from scripts/get_hand_detector.sh; default: the one that "
+        {.help = "folder of the detector from `hypotrack get detector`; default: the one that "
                  "the script uses"});
       v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
       v("smallest_hand_px", smallest_hand,

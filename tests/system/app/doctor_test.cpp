@@ -62,7 +62,7 @@ TEST_F(DoctorTest, TheTableHasALinePerCheckAndAFixPerProblem) {
       lines, [](const std::string& text) { return text.starts_with("missing  hand detector"); });
   ASSERT_LT(line - lines.begin(), std::ssize(lines) - 1);
   EXPECT_THAT(*line, HasSubstr(path("none").string()));
-  EXPECT_THAT(*std::next(line), HasSubstr("fix: scripts/get_hand_detector.sh"));
+  EXPECT_THAT(*std::next(line), HasSubstr("fix: hypotrack get detector"));
   EXPECT_THAT(lines.front(), testing::StartsWith("STATE"));
 }
 
@@ -105,7 +105,7 @@ TEST_F(DoctorTest, ADamagedHandDetectorIsBroken) {
       doctor({"HYPOTRACK_HAND_DETECTOR=" + path("detector").string()}).check("hand detector");
   EXPECT_EQ(check.at("state"), "broken");
   EXPECT_THAT(check.at("found").get<std::string>(), HasSubstr("damaged"));
-  EXPECT_EQ(check.at("fix"), "scripts/get_hand_detector.sh");
+  EXPECT_EQ(check.at("fix"), "hypotrack get detector");
 }
 
 /// Folders like /dev and /sys/class/video4linux.

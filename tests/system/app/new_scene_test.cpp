@@ -173,7 +173,7 @@ TEST_F(NewSceneTest, WithoutTheHandDetectorTheRealTrackerIsRefused) {
   start.arguments = {"new",     "scene", file(),      "--recording", recording(),
                      "--model", "hand",  "--tracker", "real"};
   start.environment = {"HYPOTRACK_HAND_DETECTOR=" + path("none").string()};
-  expect_nothing_new(run_program(start), {"run scripts/get_hand_detector.sh"});
+  expect_nothing_new(run_program(start), {"run `hypotrack get detector`"});
 }
 
 TEST_F(NewSceneTest, AFileThatIsThereIsKeptUnlessForced) {

@@ -15,7 +15,7 @@ namespace {
 // Arms and a face of the skin's colour pull at hands that hide each other.
 TEST(CrossingHands, AreFollowedBeforeAPerson) {
   if (!std::filesystem::exists(HandDetector::default_folder() / "hand_landmark_full.net"))
-    GTEST_SKIP() << "needs the hand detector; run scripts/get_hand_detector.sh";
+    GTEST_SKIP() << "needs the hand detector; run `hypotrack get detector`";
   constexpr int kCrossed = 112;  // frames
   PluginLoader plugins;
   const std::vector<std::string> overrides = {

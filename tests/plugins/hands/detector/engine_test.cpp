@@ -49,7 +49,7 @@ class NetworkTest : public ::testing::Test {
       Network(file, 2, {{"out", 3}});
     });
     EXPECT_THAT(message, AllOf(StartsWith(file.string()), HasSubstr("damaged"),
-                               Not(HasSubstr("\n")), EndsWith("run scripts/get_hand_detector.sh")));
+                               Not(HasSubstr("\n")), EndsWith("run `hypotrack get detector`")));
     return message;
   }
   /// Red is 1 to 4, row by row; green is ten times and blue a hundred times as much.
@@ -200,7 +200,7 @@ TEST_F(NetworkTest, FilesOfAnEarlierVersionAreNamed) {
   EXPECT_THAT(test::message_of<DataError>([&] {
                 Network(folder_.path() / "a.net", 2, {{"out", 3}});
               }),
-              AllOf(HasSubstr("earlier version"), EndsWith("run scripts/get_hand_detector.sh")));
+              AllOf(HasSubstr("earlier version"), EndsWith("run `hypotrack get detector`")));
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ class NetworkFiles : public ::testing::Test {
 
 TEST_F(NetworkFiles, ThatAreMissingAreNamedWithTheRemedy) {
   EXPECT_THAT(message(), AllOf(StartsWith(file("palm_detection_full.net").string()),
-                               EndsWith("run scripts/get_hand_detector.sh"), Not(HasSubstr("\n"))));
+                               EndsWith("run `hypotrack get detector`"), Not(HasSubstr("\n"))));
   EXPECT_THAT(message(true), StartsWith(file("palm_detection_lite.net").string()));
 }
 
@@ -89,7 +89,7 @@ TEST_F(NetworkFiles, OfTheHandAreNeededToo) {
   copy_networks();
   fs::remove(file("hand_landmark_full.net"));
   EXPECT_THAT(message(), AllOf(StartsWith(file("hand_landmark_full.net").string()),
-                               EndsWith("run scripts/get_hand_detector.sh")));
+                               EndsWith("run `hypotrack get detector`")));
   HandDetector lite({.folder = folder_.path(), .lite = true});
 }
 
@@ -100,7 +100,7 @@ TEST_F(NetworkFiles, ThatAreCutOffAreDamaged) {
     fs::resize_file(file("palm_detection_full.net"), size);
     EXPECT_THAT(message(),
                 AllOf(StartsWith(file("palm_detection_full.net").string()), HasSubstr("damaged"),
-                      EndsWith("run scripts/get_hand_detector.sh"), Not(HasSubstr("\n"))))
+                      EndsWith("run `hypotrack get detector`"), Not(HasSubstr("\n"))))
         << size;
     fs::remove_all(folder_.path());
     fs::create_directory(folder_.path());

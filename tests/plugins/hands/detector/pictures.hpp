@@ -16,7 +16,7 @@
                                "hand_landmark_full.net"))                    \
   GTEST_SKIP() << "needs the hand detector's networks in "                   \
                << ::hypotrack::HandDetector::default_folder().string()       \
-               << "; run scripts/get_hand_detector.sh"
+               << "; run `hypotrack get detector`"
 
 namespace hypotrack::test {
 

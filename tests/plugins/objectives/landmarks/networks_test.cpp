@@ -96,7 +96,7 @@ TEST(LandmarksNetworks, ThatAreMissingAreNamedWithTheRemedy) {
   LandmarksParams params;
   params.folder = folder.path();
   EXPECT_THAT(hypotrack::test::message_of<DataError>([&] { networks(params, test::two_hands()); }),
-              HasSubstr("run scripts/get_hand_detector.sh"));
+              HasSubstr("run `hypotrack get detector`"));
 }
 
 }  // namespace

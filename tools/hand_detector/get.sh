@@ -1,19 +1,17 @@
 #!/usr/bin/env bash
-# get_hand_detector.sh [FOLDER]: puts the networks of the hand detector into FOLDER, by default
-# hypotrack/hand_detector in $XDG_DATA_HOME or ~/.local/share. They are those of MediaPipe (Apache-2.0), from
-# the npm package @mediapipe/hands, converted to flat files. Installs the Debian packages that this needs. Does
-# nothing if they are there.
+# get.sh [--archive FILE] [FOLDER]: `hypotrack get detector`. Puts the networks of the hand detector into
+# FOLDER, by default hypotrack/hand_detector in $XDG_DATA_HOME or ~/.local/share. They are those of MediaPipe
+# (Apache-2.0), from the npm package @mediapipe/hands, converted to flat files. Does nothing if they are there.
 set -euo pipefail
-scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-tools=$(cd "$scripts/../tools/hand_detector" && pwd)
-licence=$(cd "$scripts/.." && pwd)/LICENSE
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 package=@mediapipe/hands
 version=0.4.1675469240
 archive=hands-$version.tgz
+address=https://registry.npmjs.org/$package/-/$archive
 python=/usr/bin/python3
 
 fail() {
-  echo "get_hand_detector.sh: $*" >&2
+  echo "hypotrack: get detector: $*" >&2
   exit 1
 }
 
@@ -42,9 +40,9 @@ download() {
   command -v curl >/dev/null || command -v npm >/dev/null ||
     fail "needs npm or curl; install the Debian package curl"
   command -v curl >/dev/null &&
-    curl --fail --silent --show-error --location --retry 2 --connect-timeout 20 --output "$archive" \
-      "https://registry.npmjs.org/$package/-/$archive" && return
-  fail "$package@$version cannot be downloaded from registry.npmjs.org; is the network there?"
+    curl --fail --silent --location --retry 2 --connect-timeout 20 --output "$archive" "$address" && return
+  fail "$address cannot be downloaded. Where there is no network, bring that file from another machine, and" \
+    "run: hypotrack get detector --archive $archive"
 }
 
 # cut_assets BEFORE SIZE: the SIZE bytes of the package's file of assets that follow the first BEFORE ones.
@@ -52,7 +50,12 @@ cut_assets() {
   head --bytes=$(($1 + $2)) package/hands_solution_packed_assets.data 2>/dev/null | tail --bytes="$2"
 }
 
-if [ $# -gt 1 ] || [[ ${1:-} == -* ]]; then fail "usage: get_hand_detector.sh [FOLDER]"; fi
+own_archive=
+if [ "${1:-}" = --archive ]; then
+  [ -f "${2:-}" ] || fail "there is no file ${2:-}"
+  own_archive=$(realpath "$2")
+  shift 2
+fi
 if [ $# -eq 1 ]; then
   [ -n "$1" ] || fail "the folder's name is empty"
   folder=$1
@@ -65,11 +68,8 @@ if [ -f "$folder/LICENSE" ] && holds "$folder" "$network_sums"; then
   exit 0
 fi
 
-if command -v apt-get >/dev/null; then
-  source "$scripts/install_missing_packages.sh"
-  install_missing_packages packages-detector.txt
-fi
-"$python" -c "import numpy" 2>/dev/null || fail "needs the module numpy of $python; install python3-numpy"
+"$python" -c "import numpy" 2>/dev/null ||
+  fail "needs the module numpy of $python; install the Debian package python3-numpy"
 
 parent=$(dirname "$folder")
 mkdir -p "$parent" 2>/dev/null || fail "cannot make the folder $parent"
@@ -79,8 +79,10 @@ work=$(mktemp -d "$parent/.hand_detector.XXXXXX" 2>/dev/null) || fail "cannot wr
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-download
-holds . "$archive_sum" || fail "what was downloaded as $archive is damaged: its sha256 differs"
+if [ -n "$own_archive" ]; then cp "$own_archive" "$archive"; else download; fi
+holds . "$archive_sum" ||
+  fail "${own_archive:-$address} is damaged: its sha256 is $(sha256sum <"$archive" | cut -c 1-64)," \
+    "expected ${archive_sum%% *}"
 tar --extract --gzip --no-same-owner --file "$archive" || fail "$archive cannot be unpacked"
 chmod -R u+rwX package
 mv package/hand_landmark_{full,lite}.tflite .
@@ -90,7 +92,7 @@ holds . "$tflite_sums" || fail "$archive does not hold the expected networks: a 
 
 mkdir ready
 for network in *.tflite; do
-  "$python" -B "$tools/convert.py" "$network" "ready/${network%.tflite}.net" ||
+  "$python" -B "$here/convert.py" "$network" "ready/${network%.tflite}.net" ||
     fail "$network cannot be converted"
 done
 holds ready "$network_sums" || fail "the converted networks differ from those that were tested"
@@ -98,7 +100,7 @@ holds ready "$network_sums" || fail "the converted networks differ from those th
   echo "The .net files here are MediaPipe's palm detectors and hand landmark networks, by Google, from the"
   echo "npm package $package $version, converted from TensorFlow Lite by hypotrack."
   echo "They are under this licence:"
-  cat "$licence"
+  cat "$here/apache-2.0.txt"
 } >ready/LICENSE
 chmod 755 ready
 
