@@ -57,6 +57,7 @@ endmacro()
 # those that stand in for them without it.
 function(hypotrack_cuda_sources target)
   cmake_parse_arguments(ARG "" "" "NO_CUDA_SOURCES" ${ARGN})
+  set_target_properties(${target} PROPERTIES HYPOTRACK_HAS_CUDA_VARIANT ON)
   if(HYPOTRACK_HAS_CUDA)
     target_sources(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS})
     target_link_libraries(${target} PRIVATE CUDA::cudart_static)

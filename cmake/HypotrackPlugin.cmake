@@ -110,7 +110,6 @@ function(hypotrack_add_plugin_library kind name)
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${HYPOTRACK_PLUGIN_DIR}
       INSTALL_RPATH "$ORIGIN/../..")
-    install(TARGETS ${target} LIBRARY DESTINATION ${HYPOTRACK_PLUGIN_DIR})
     set_property(GLOBAL APPEND PROPERTY HYPOTRACK_PLUGINS ${target})
   elseif(CMAKE_TESTING_ENABLED)  # inside the project tests/contract does it
     hypotrack_add_contract_test(${target})

@@ -46,7 +46,8 @@ Check probe_cuda() {
   if (built_for.empty())
     return {.state = State::missing,
             .found = cuda::why_no_device(),
-            .fix = std::string(HYPOTRACK_WHY_NO_CUDA) + "; then build again; " + cpu};
+            .fix = std::string(HYPOTRACK_WHY_NO_CUDA) +
+                   "; then build again, or install the package hypotrack-cuda; " + cpu};
   const std::string driver = driver_version();
   const std::string build =
       fmt::format("{}{}; built for {}", driver.empty() ? "" : "; driver ", driver, built_for);
