@@ -25,8 +25,7 @@ case $mode in
 esac
 
 source scripts/setup.sh
-install_missing_packages packages-test.txt
-install_missing_packages packages-detector.txt
+for list in test detector package; do install_missing_packages packages-$list.txt; done
 
 # build_dev TARGET: builds it and gets the hand detector, without which its tests are skipped.
 build_dev() {

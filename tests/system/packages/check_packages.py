@@ -89,6 +89,8 @@ def check_libraries_are_in_packages_named(packages):
             named.add("libhypotrack0")
         for file, libraries in package.programs():
             for library in libraries:
+                if library in named:  # liblapack.so.3 is a package that several provide
+                    continue
                 owner = own.get(library) or owner_on_this_machine(library)
                 assert owner in named, \
                     f"{package.name}: {file} needs {library}, but {owner} is not in Depends"
