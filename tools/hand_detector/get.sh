@@ -39,10 +39,11 @@ download() {
   fi
   command -v curl >/dev/null || command -v npm >/dev/null ||
     fail "needs npm or curl; install the Debian package curl"
-  command -v curl >/dev/null &&
-    curl --fail --silent --location --retry 2 --connect-timeout 20 --output "$archive" "$address" && return
-  fail "$address cannot be downloaded. Where there is no network, bring that file from another machine, and" \
-    "run: hypotrack get detector --archive $archive"
+  local why='npm failed'
+  command -v curl >/dev/null && why=$(curl --fail --silent --show-error --location --retry 2 \
+    --connect-timeout 20 --output "$archive" "$address" 2>&1) && return
+  fail "$address cannot be downloaded (${why##*$'\n'}). Where there is no network, bring that file from" \
+    "another machine, and run: hypotrack get detector --archive $archive"
 }
 
 # cut_assets BEFORE SIZE: the SIZE bytes of the package's file of assets that follow the first BEFORE ones.

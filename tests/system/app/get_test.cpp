@@ -28,11 +28,12 @@ class GetTest : public AppTest {
 };
 
 TEST_F(GetTest, WithoutANetworkItSaysHowToGoOnAndLeavesNothing) {
-  program("curl", "exit 6");
-  expect_refusal(get(), {"https://registry.npmjs.org/@mediapipe/hands/-/hands-0.4.1675469240.tgz "
-                         "cannot be downloaded",
-                         "bring that file from another machine, and run: hypotrack get detector "
-                         "--archive hands-0.4.1675469240.tgz"});
+  program("curl", "echo 'curl: (6) Could not resolve host' >&2; exit 6");
+  expect_refusal(
+      get(), {"https://registry.npmjs.org/@mediapipe/hands/-/hands-0.4.1675469240.tgz "
+              "cannot be downloaded (curl: (6) Could not resolve host). Where there is no network,",
+              "bring that file from another machine, and run: hypotrack get detector "
+              "--archive hands-0.4.1675469240.tgz"});
   EXPECT_THAT(names_in(path("data")), IsEmpty());
 }
 
