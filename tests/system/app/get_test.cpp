@@ -18,10 +18,11 @@ class GetTest : public AppTest {
 
   Outcome get(const std::vector<std::string>& more = {}) const {
     program("npm", "exit 1");
-    std::vector<std::string> arguments{"get", "detector", path("data/networks").string()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_program({.arguments = arguments,
-                        .environment = {"PATH=" + path("bin").string() + ":/usr/bin:/bin"}});
+    Start start;
+    start.arguments = {"get", "detector", path("data/networks").string()};
+    start.arguments.insert(start.arguments.end(), more.begin(), more.end());
+    start.environment = {"PATH=" + path("bin").string() + ":/usr/bin:/bin"};
+    return run_program(start);
   }
 
   void SetUp() override { std::filesystem::create_directories(path("bin")); }
