@@ -16,7 +16,7 @@ NEXT_MINOR=${MINOR%.*}.$((${MINOR#*.} + 1))
 seconds=${SOURCE_DATE_EPOCH:-$(git -C "$SOURCE" log -1 --format=%ct 2>/dev/null || date +%s)}
 commit=$(git -C "$SOURCE" rev-parse --short=8 HEAD 2>/dev/null || true)
 if [ -n "$commit" ] && ! git -C "$SOURCE" describe --exact-match --match "v$version" >/dev/null 2>&1; then
-  version+=+git$(date -u -d "@$seconds" +%Y%m%d).$commit
+  version+=+git$(date -u -d "@$seconds" +%Y%m%d%H%M).$commit
 fi
 release=$(. /etc/os-release && echo "${VERSION_ID:-0}")
 eval "$(dpkg-architecture --print-set)"
