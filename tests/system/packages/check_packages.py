@@ -35,6 +35,7 @@ class Package:
         self.deb = deb
         self.name = output("dpkg-deb", "-f", deb, "Package").strip()
         self.root = folder / self.name
+        self.root.mkdir(parents=True)
         subprocess.run(["dpkg-deb", "-x", deb, self.root], check=True)
         self.files = files_below(self.root)
         depends = output("dpkg-deb", "-f", deb, "Depends")
