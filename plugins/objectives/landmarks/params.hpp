@@ -34,8 +34,7 @@ struct LandmarksParams {
        .min = 0,
        .max = 1000});
     v("folder", folder,
-      {.help = "folder of the detector from `hypotrack get detector`; default: the one that "
-               "the script uses"});
+      {.help = "folder of the detector; default: where `hypotrack get detector` puts it"});
     v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
   }
 };

@@ -26,8 +26,7 @@ class HandLandmarks final : public Start {
     double smallest_hand = 50;
     void visit(ParamVisitor& v) {
       v("folder", folder,
-        {.help = "folder of the detector from `hypotrack get detector`; default: the one that "
-                 "the script uses"});
+        {.help = "folder of the detector; default: where `hypotrack get detector` puts it"});
       v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
       v("smallest_hand_px", smallest_hand,
         {.help = "length of the smallest hands to search for in small pieces of the pictures, if "
