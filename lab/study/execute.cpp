@@ -39,7 +39,8 @@ class Execution {
         recordings_(folder, plan, runs, launch),
         order_(plan),
         jobs_(static_cast<std::size_t>(launch.jobs)),
-        most_beside_(std::min(static_cast<std::size_t>(launch.spare_cores), jobs_ / kShareAhead)) {
+        most_beside_(std::min(static_cast<std::size_t>(launch.spare_cores / launch.threads),
+                              jobs_ / kShareAhead)) {
     for (const std::size_t run : runs) waiting_.push_back({run, {}, folder_.state(plan.runs[run])});
   }
 

@@ -150,8 +150,8 @@ class HYPOTRACK_API Model {
   /// Returns directions that people can name, perpendicular to each other, under different names.
   /// A scene turns the model by two of them; empty: by angles only.
   virtual std::vector<NamedDirection> directions() const { return {}; }
-  /// Returns names of landmarks that people find in pictures, clearest first. Who clicks a pose is
-  /// asked for these before the others.
+  /// Returns names of landmarks that people find in pictures, clearest first. `hypotrack
+  /// start` asks for these before the others.
   virtual std::vector<std::string> clear_landmarks() const { return {}; }
 
  private:

@@ -18,7 +18,7 @@ void write_picture(const std::filesystem::path& file, const cv::Mat& image,
 /// threads' timing.
 class ImageWriter {
  public:
-  /// `threads`: beside the caller's; 0: one per core.
+  /// `threads`: beside the caller's; 0: as many as there are cores, less one.
   explicit ImageWriter(int threads);
   /// Finishes the files that are begun and drops waiting ones.
   ~ImageWriter();

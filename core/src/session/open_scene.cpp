@@ -231,6 +231,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
                                                     std::vector<YamlDocument>& records) {
   const std::vector<ConfigNode> nodes = start_nodes(from, root_.get("init"));
   std::vector<std::unique_ptr<Start>> all;
+  std::string unusable;  // messages
   for (const ConfigNode& node : nodes) {
     YamlDocument record;
     try {
@@ -239,6 +240,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
       if (from.scalar() != kStartAuto) throw;
       session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
                                            text_of(node, "type", ""), e.what()));
+      unusable += (unusable.empty() ? "" : "; ") + std::string(e.what());
       continue;
     }
     if (nodes.size() > 1 && !all.back()->looks())
@@ -247,6 +249,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
                                         text_of(node, "type", "")));
     records.push_back(std::move(record));
   }
+  if (all.empty()) detail::fail_at(from, "none of its starts can be used: " + unusable);
   return all;
 }
 

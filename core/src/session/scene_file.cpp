@@ -47,6 +47,8 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
     for (std::size_t i = 0; i < from.size(); ++i) add(from.at(i));
   } else if (from.scalar() == kStartAuto) {
     const ConfigNode list = ConfigNode::load(data_file("configs/starts/auto.yaml"));
+    if (!list.is_list() || list.size() == 0)
+      detail::fail_at(list, "expected a list of starts that look, as `- global_search`");
     for (std::size_t i = 0; i < list.size(); ++i) add(list.at(i));
   } else {
     add(from);

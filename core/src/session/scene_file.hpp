@@ -30,7 +30,7 @@ inline constexpr std::string_view kStartFromFile = "file";
 /// The start that takes its file from `init.file`.
 inline constexpr std::string_view kStartFromClicks = "clicks";
 
-/// The word in `init.from` for those starts in configs/starts/auto.yaml that can.
+/// The word in `init.from` for the starts of configs/starts/auto.yaml that can be used.
 inline constexpr std::string_view kStartAuto = "auto";
 
 /// `init:` of a scene.

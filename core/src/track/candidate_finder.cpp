@@ -203,8 +203,8 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
     if (candidates[i].probability() >= enough &&
         costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
       best = i;
-  // A box turned by 180 degrees looks the same: prefer the pose closest to the last one, as
-  // what holds the box has moved it.
+  // A box turned by 180 degrees looks the same: prefer the pose closest to the last one, moved
+  // with the model that holds the box.
   const double cheapest = costs[static_cast<Eigen::Index>(best)];
   const double similar = cheapest + kSimilar * std::abs(cheapest);
   for (std::size_t i = 0; i < apart.size(); ++i)

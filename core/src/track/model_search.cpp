@@ -260,7 +260,7 @@ void CandidateFinder::ModelSearch::ask_starts() {
     if (request_.contradicts && !proposed.taken.empty() && proposed.known.empty())
       finder_.contradicted_ = true;
   }
-  // Nothing was learned yet that would tell the model from what is none.
+  // Nothing was learned yet by which the model could be told from other things.
   if (denied && never_seen && !(request_.unseen[model_] <= kRemembered))
     std::erase_if(found_, [&](const Candidate& one) { return !is_good(one); });
 }

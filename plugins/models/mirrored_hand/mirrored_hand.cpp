@@ -7,7 +7,6 @@
 
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/shape.hpp"
-#include "palm.hpp"
 
 namespace hypotrack {
 namespace {
@@ -56,11 +55,9 @@ class MirroredHand : public Model {
   ModelData shaped(std::span<const double> values) const override {
     return mirrored(original_.model->shaped(values));
   }
-  /// Returns those of this hand. A model without a hand's landmarks may have others, mirrored.
+  /// Returns the directions of the original, mirrored.
   std::vector<NamedDirection> directions() const override {
-    std::vector<NamedDirection> all = palm_directions(*this);
-    if (!all.empty()) return all;
-    all = original_.model->directions();
+    std::vector<NamedDirection> all = original_.model->directions();
     for (NamedDirection& direction : all) direction.axis.x() *= -1;
     return all;
   }

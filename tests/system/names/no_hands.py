@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """no_hands.py ROOT: fails if core, apart from its program, has a word of hands in a file or in its name.
 
-Core tracks any model: what is special about hands is in plugins/hands/, and models supply it (Model::directions()).
+Core tracks any model: plugins/hands/ knows hands, and models describe them (Model::directions()).
 scripts/count.py has the words, and counts the files.
 """
 import pathlib

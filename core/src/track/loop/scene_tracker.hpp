@@ -35,8 +35,8 @@ class SceneTracker {
   SceneTracker& operator=(const SceneTracker&) = delete;
 
   /// Finds the scene in the next frame. `record`, if given, receives how, and `trace` how the
-  /// searches converged. Both stay empty while a search runs in the background. Loops but
-  /// those of OpenCV use at most the threads of EvaluateSettings. Throws Stopped by check_stop();
+  /// searches converged. Both stay empty while a search runs in the background. It uses at
+  /// most the threads of EvaluateSettings, apart from OpenCV's. Throws Stopped by check_stop();
   /// the tracker can go on with the next frame.
   Solution track(const Frame& frame, SearchRecord* record = nullptr, FrameTrace* trace = nullptr);
 

@@ -202,8 +202,8 @@ std::vector<PlaceFinder::Candidate> PlaceFinder::sweep(const Views& views, doubl
         std::max(0.0, correlation(views[0], a.x, a.y, a.r, views[1], b.x, b.y, b.r));
     const double beside = std::max(ring_mean(views[0], a.x, a.y, a.r, share[0]),
                                    ring_mean(views[1], b.x, b.y, b.r, share[1]));
-    // Weigh by size, as small windows fill up sooner; subtract the ring, which a forearm fills,
-    // too.
+    // Weigh by size, as small windows fill up sooner; subtract the ring, which longer things
+    // fill, too.
     const double extent = double{a.r} * (both - kLeast - beside);
     if (extent > 0) found.push_back({&point, both, extent * (0.3 + 0.7 * alike)});
   }

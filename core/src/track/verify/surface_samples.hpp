@@ -44,7 +44,7 @@ struct SurfaceSamples {
   bool empty() const { return other.empty(); }
 };
 
-/// Points along a side of the grid around a model of up to 0.35 m.
+/// Points along a side of the grid around a model.
 inline constexpr int kSampleGrid = 64;
 
 /// Samples the first two views of a frame around one model of a scene. Reuses its memory, so each
