@@ -13,6 +13,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "session/opened_scene.hpp"
+#include "scoped_variable.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -79,6 +80,22 @@ class SessionTest : public ::testing::Test {
   test::TemporaryDirectory folder_;
   std::vector<Camera> cameras_;
 };
+
+TEST_F(SessionTest, NamesTheFileOfTheUsualStartsIfThatIsWrong) {
+  std::filesystem::create_directories(path("configs/starts"));
+  const test::ScopedVariable data("HYPOTRACK_DATA_PATH", folder_.path().string());
+  const auto text = std::string(kRest) + kSource + "judge: none\ninit: {from: auto}\n";
+  const auto problem_of = [&](const char* starts) {
+    std::ofstream(path("configs/starts/auto.yaml")) << starts;
+    return message_of<ConfigError>([&] { Session session(scene(text)); });
+  };
+  const std::string file = path("configs/starts/auto.yaml").string();
+  for (const char* no_list : {"a: b\n", "global_search\n", ""})
+    EXPECT_THAT(problem_of(no_list), AllOf(HasSubstr(file), HasSubstr("expected a list of starts")));
+  EXPECT_THAT(problem_of("- {type: hand_landmarks, folder: /nowhere}\n"),
+              AllOf(HasSubstr("scene.yaml:"), HasSubstr("none of its starts can be used"),
+                    HasSubstr("/nowhere")));
+}
 
 TEST_F(SessionTest, TracksFramesOfTheCallerAsARunTracksThoseOfItsSource) {
   const std::vector<Frame> given = frames();
