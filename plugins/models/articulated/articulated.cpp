@@ -34,7 +34,9 @@ struct ArticulatedParams {
       {.help = "for a glTF or GLB file: image to use instead of the one that the mesh names"});
     v("scale", scale,
       {.help = "for a URDF file: factor on all its lengths", .min = 1e-6, .max = 1e6});
-    v("anchors", anchors, {.help = "points for the error; default: three per link that moves"});
+    v("anchors", anchors,
+      {.help = "points for the error; wrist, index_mcp, little_mcp and middle_tip give a hand's "
+               "directions; default: three per link that moves"});
   }
 };
 

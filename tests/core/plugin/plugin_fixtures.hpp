@@ -1,12 +1,11 @@
 #pragma once
 
 #include <gmock/gmock.h>
-#include <stdlib.h>
 
-#include <optional>
 #include <string>
 
 #include "expect_error.hpp"
+#include "scoped_variable.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -19,27 +18,5 @@ inline std::filesystem::path fixtures(const std::string& group) {
 inline std::filesystem::path fixture(const std::string& group, const std::string& name) {
   return fixtures(group) / ("libhypotrack_optimizer_" + name + ".so");
 }
-
-/// Sets an environment variable until the end of the scope.
-class ScopedVariable {
- public:
-  ScopedVariable(const char* name, const std::string& value) : name_(name) {
-    if (const char* old = getenv(name)) old_ = old;
-    setenv(name, value.c_str(), 1);
-  }
-  ~ScopedVariable() {
-    if (old_) {
-      setenv(name_, old_->c_str(), 1);
-    } else {
-      unsetenv(name_);
-    }
-  }
-  ScopedVariable(const ScopedVariable&) = delete;
-  ScopedVariable& operator=(const ScopedVariable&) = delete;
-
- private:
-  const char* name_;
-  std::optional<std::string> old_;
-};
 
 }  // namespace hypotrack::test

@@ -12,8 +12,8 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
-#include "session/opened_scene.hpp"
 #include "scoped_variable.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -92,9 +92,9 @@ TEST_F(SessionTest, NamesTheFileOfTheUsualStartsIfThatIsWrong) {
   const std::string file = path("configs/starts/auto.yaml").string();
   for (const char* no_list : {"a: b\n", "global_search\n", ""})
     EXPECT_THAT(problem_of(no_list), AllOf(HasSubstr(file), HasSubstr("expected a list of starts")));
-  EXPECT_THAT(problem_of("- {type: hand_landmarks, folder: /nowhere}\n"),
+  EXPECT_THAT(problem_of("- {type: file, file: /nowhere.csv}\n"),
               AllOf(HasSubstr("scene.yaml:"), HasSubstr("none of its starts can be used"),
-                    HasSubstr("/nowhere")));
+                    HasSubstr("/nowhere.csv")));
 }
 
 TEST_F(SessionTest, TracksFramesOfTheCallerAsARunTracksThoseOfItsSource) {
