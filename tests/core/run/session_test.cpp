@@ -81,6 +81,25 @@ class SessionTest : public ::testing::Test {
   std::vector<Camera> cameras_;
 };
 
+TEST_F(SessionTest, RefusesToLookWithoutAStartThatCanBeUsed) {
+  const auto share = test::build_dir() / "share/hypotrack";
+  std::filesystem::create_directories(path("configs/starts"));
+  for (const char* data : {"hands", "rigs"})
+    std::filesystem::create_directory_symlink(share / data, path(data));
+  std::ofstream(path("configs/starts/auto.yaml")) << "- {type: hand_landmarks, folder: /nowhere}\n";
+  const test::ScopedVariable variable("HYPOTRACK_DATA_PATH", folder_.path().string());
+  const std::string hand = R"(models: [{name: hand, type: hand}]
+source: {type: synthetic, frames: 1, motion: {frames: 1}}
+objective: {type: stereo_color}
+optimizer: {type: pso, particles: 16, generations: 8}
+judge: none
+init: {from: auto}
+)";
+  EXPECT_THAT(message_of<ConfigError>([&] { Session session(scene(hand)); }),
+              AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("none of its starts can be used"),
+                    HasSubstr("/nowhere")));
+}
+
 TEST_F(SessionTest, NamesTheFileOfTheUsualStartsIfThatIsWrong) {
   std::filesystem::create_directories(path("configs/starts"));
   const test::ScopedVariable data("HYPOTRACK_DATA_PATH", folder_.path().string());
@@ -91,10 +110,8 @@ TEST_F(SessionTest, NamesTheFileOfTheUsualStartsIfThatIsWrong) {
   };
   const std::string file = path("configs/starts/auto.yaml").string();
   for (const char* no_list : {"a: b\n", "global_search\n", ""})
-    EXPECT_THAT(problem_of(no_list), AllOf(HasSubstr(file), HasSubstr("expected a list of starts")));
-  EXPECT_THAT(problem_of("- {type: file, file: /nowhere.csv}\n"),
-              AllOf(HasSubstr("scene.yaml:"), HasSubstr("none of its starts can be used"),
-                    HasSubstr("/nowhere.csv")));
+    EXPECT_THAT(problem_of(no_list),
+                AllOf(HasSubstr(file), HasSubstr("expected a list of starts")));
 }
 
 TEST_F(SessionTest, TracksFramesOfTheCallerAsARunTracksThoseOfItsSource) {
