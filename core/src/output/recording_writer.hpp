@@ -94,9 +94,9 @@ class RecordingWriter {
   int last_ = -1;
   int first_image_ = -1;
   int last_image_ = -1;
-  std::vector<double> times_;                         ///< of the frames from first_ to last_
-  std::vector<std::int64_t> stamps_;                  ///< of the same frames
-  bool stamped_ = true;                               ///< all have Frame::stamp, and it grows
+  std::vector<double> times_;         ///< of the frames from first_ to last_
+  std::vector<std::int64_t> stamps_;  ///< of the same frames
+  bool stamped_ = true;               ///< all have Frame::stamp, and it grows
   int threads_;
   std::optional<ImageWriter> images_;  ///< ends before the folder
 };

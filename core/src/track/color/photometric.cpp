@@ -12,8 +12,8 @@ namespace {
 
 // A line is determined by its values at two levels; their changes are limited.
 constexpr float kLow = 64, kHigh = 192;
-// Measured with an articulated model of 0.2 m: the views' samples of its surface correlate by 0.7 or
-// more if the pose is within 6 mm, and by less than 0.45 if it is 30 mm off.
+// Measured with an articulated model of 0.2 m: the views' samples of its surface correlate by 0.7
+// or more if the pose is within 6 mm, and by less than 0.45 if it is 30 mm off.
 constexpr double kSameSurface = 0.5;
 // After this many frames the pose comes from a search, and the map may only change slowly.
 constexpr int kSettled = 3;
