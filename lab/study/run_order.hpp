@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -23,9 +24,20 @@ class RunOrder {
 
   /// Returns which of some runs, in the order of the plan, is to begin. Runs of cells without a
   /// time come first. Precondition: there are some.
-  std::size_t next(std::span<const std::size_t> runs) const;
+  std::size_t next(std::span<const std::size_t> runs) const {
+    std::size_t best = runs.front();
+    for (const std::size_t run : runs)
+      if (plan_.runs[run].seed == plan_.runs[runs.front()].seed && seconds(run) > seconds(best))
+        best = run;
+    return best;
+  }
 
  private:
+  double seconds(std::size_t run) const {
+    const auto known = seconds_.find(plan_.runs[run].cell);
+    return known == seconds_.end() ? std::numeric_limits<double>::infinity() : known->second;
+  }
+
   const Plan& plan_;
   std::map<std::size_t, double> seconds_;  ///< by cell
 };
