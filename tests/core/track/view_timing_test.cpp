@@ -50,6 +50,18 @@ class ViewTimingTest : public ::testing::Test {
   TexturedPair pair_;
 };
 
+TEST_F(ViewTimingTest, PicturesOfRectifiedCamerasAreTheirOwnPixels) {
+  const RectifiedPair pair = RectifiedPair::make({pair_.cameras[0], pair_.cameras[1]}).value();
+  const Frame frame = frame_at(3, {});
+  const GreyPair small = pair.resample(frame);
+  for (std::size_t v = 0; v < 2; ++v) {
+    cv::Mat grey;
+    cv::cvtColor(frame.views[v].color, grey, cv::COLOR_BGR2GRAY);
+    ASSERT_GE(small[v].cols, grey.cols - 1);
+    EXPECT_EQ(cv::norm(small[v], grey(cv::Rect({}, small[v].size())), cv::NORM_INF), 0);
+  }
+}
+
 TEST_F(ViewTimingTest, TellsByHowManyFramesEitherViewIsLate) {
   for (const int late : {-1, 0, 2}) {
     const auto told = found(late, {});

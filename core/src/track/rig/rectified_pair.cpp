@@ -43,6 +43,20 @@ Field field_of(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal) {
   return field;
 }
 
+/// Returns the part of a picture of this size that a map shows as it is; nothing unless it shows
+/// one. Pictures of rectified cameras are such parts.
+std::optional<cv::Rect> part_shown(const cv::Mat1f& x, const cv::Mat1f& y, const cv::Size& size) {
+  constexpr float kExact = 0.01F;  // pixels
+  const cv::Rect part(cv::Point(cvRound(x(0, 0)), cvRound(y(0, 0))), x.size());
+  if ((part & cv::Rect({}, size)) != part) return std::nullopt;
+  for (int row = 0; row < x.rows; ++row)
+    for (int column = 0; column < x.cols; ++column)
+      if (!(std::abs(x(row, column) - static_cast<float>(part.x + column)) < kExact &&
+            std::abs(y(row, column) - static_cast<float>(part.y + row)) < kExact))
+        return std::nullopt;
+  return part;
+}
+
 }  // namespace
 
 std::optional<RectifiedPair> RectifiedPair::make(const std::array<Camera, 2>& cameras) {
@@ -78,7 +92,10 @@ std::optional<RectifiedPair> RectifiedPair::make(const std::array<Camera, 2>& ca
       pixels(inside).convertTo(at, CV_32F, 1.0 / out.shrink_, 0.5 / out.shrink_ - 0.5);
       return at;
     };
-    cv::convertMaps(shrunken(map.x), shrunken(map.y), out.x_[v], out.y_[v], CV_16SC2);
+    const cv::Mat1f x = shrunken(map.x), y = shrunken(map.y);
+    const cv::Size size(cameras[v].width / out.shrink_, cameras[v].height / out.shrink_);
+    out.part_[v] = part_shown(x, y, size);
+    if (!out.part_[v]) cv::convertMaps(x, y, out.x_[v], out.y_[v], CV_16SC2);
   }
   return out;
 }
@@ -90,6 +107,7 @@ GreyPair RectifiedPair::resample(const Frame& frame) const {
     cv::Mat shrunken = frame.views[v].color, grey;
     if (shrink_ > 1)
       cv::resize(shrunken, shrunken, shrunken.size() / shrink_, 0, 0, cv::INTER_AREA);
+    if (part_[v]) return cv::cvtColor(shrunken(*part_[v]), out[v], cv::COLOR_BGR2GRAY);
     cv::cvtColor(shrunken, grey, cv::COLOR_BGR2GRAY);
     cv::remap(grey, out[v], x_[v], y_[v], cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   });

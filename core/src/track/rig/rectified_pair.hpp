@@ -40,6 +40,7 @@ class RectifiedPair {
   Eigen::Matrix2d second_from_small_;  ///< directions in the pictures
   int shrink_ = 1;                     ///< pixels of a picture that are averaged
   std::array<cv::Mat, 2> x_, y_;       ///< in the shrunken pictures
+  std::array<std::optional<cv::Rect>, 2> part_;  ///< of those, where no pixel is between others
 };
 
 }  // namespace internal
