@@ -114,6 +114,9 @@ class HYPOTRACK_API CostFunction {
   /// Returns these costs with their residuals, or null if they have none. This cost owns the
   /// result.
   virtual ResidualCost* residuals() { return nullptr; }
+  /// Returns true if the batches of this search are recorded or traced. A search that stays on the
+  /// GPU shows none.
+  virtual bool is_watched() const { return false; }
 };
 
 /// The dimensions of a search point that move one part of the scene.

@@ -33,6 +33,7 @@ class SearchCost final : public CostFunction, public ResidualCost {
                 Eigen::Ref<Eigen::VectorXd> costs) override;
   cuda::DeviceCost* device() override;
   ResidualCost* residuals() override { return cost_.least_squares() ? this : nullptr; }
+  bool is_watched() const override { return record_ || tally_.tracer; }
 
   // ResidualCost
   Eigen::Index count() const override { return cost_.least_squares()->count(); }

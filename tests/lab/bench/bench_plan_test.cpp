@@ -129,7 +129,7 @@ TEST_F(BenchPlanTest, TheTableThatComesWithHypotrackFitsItsScenes) {
   EXPECT_THAT(labels(plan), testing::IsSupersetOf({"1 hand 32x32", "1 hand 64x64", "2 hands 32x32",
                                                    "1 hand 32x32, tile 256", "1 hand 1024x32",
                                                    "1 hand 4096x32"}));
-  EXPECT_THAT(configurations(plan), ElementsAre("cpu", "egl", "cuda", "pso_cuda"));
+  EXPECT_THAT(configurations(plan), ElementsAre("cpu", "egl", "cuda"));
 }
 
 }  // namespace
