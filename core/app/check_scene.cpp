@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
 #include "notes.hpp"
 #include "output/run_output.hpp"
@@ -26,14 +27,25 @@ Frame first_frame(Source& source, bool draw) {
   return std::move(*frame);
 }
 
+/// Returns the YAML of a scene's models and source, which decides its frames.
+std::string key_of(const OpenedScene& session) {
+  const ConfigNode models = ConfigNode::parse(session.resolved, "the scene").get("models");
+  return models.to_yaml() + session.source_resolved;
+}
+
 }  // namespace
 
 CheckedScene check_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
-                         PluginLoader& plugins, const std::optional<std::filesystem::path>& draw) {
+                         PluginLoader& plugins, const std::optional<std::filesystem::path>& draw,
+                         FirstFrames* first_frames) {
   if (draw) check_picture_file(*draw);
   OpenedScene session = open_scene(file, overrides, plugins);
   check_outputs(session.outputs);
-  const Frame first = first_frame(*session.source, draw.has_value());
+  const auto made = [&] {
+    return std::make_shared<const Frame>(first_frame(*session.source, draw.has_value()));
+  };
+  const auto kept = first_frames ? first_frames->get(key_of(session), made) : made();
+  const Frame& first = *kept;
   CheckedScene checked;
   checked.problem = first.problem;
   const bool usable = first.problem.empty();

@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "base/kept_results.hpp"
+#include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace hypotrack::app {
@@ -21,11 +24,16 @@ struct CheckedScene {
   std::string resolved;  ///< YAML with every parameter
 };
 
+/// First frames of sources, by their YAML and that of their models: those of a study's cells are
+/// mostly the same.
+using FirstFrames = KeptResults<std::string, std::shared_ptr<const Frame>>;
+
 /// Opens everything that a run would open and checks the first frame. Prints notes on what looks
-/// mistaken. Draws the start on the first usable frame if `draw` names a picture to write. Throws
-/// the error of the part that fails.
+/// mistaken. Takes the frame from `first_frames` if given. Draws the start on the first usable
+/// frame if `draw` names a picture to write. Throws the error of the part that fails.
 CheckedScene check_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
                          PluginLoader& plugins,
-                         const std::optional<std::filesystem::path>& draw = std::nullopt);
+                         const std::optional<std::filesystem::path>& draw = std::nullopt,
+                         FirstFrames* first_frames = nullptr);
 
 }  // namespace hypotrack::app

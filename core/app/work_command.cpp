@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -17,6 +18,8 @@
 #include <string>
 #include <thread>
 
+#include "base/machine.hpp"
+#include "camera/kept_images.hpp"
 #include "check_scene.hpp"
 #include "commands.hpp"
 #include "cost/cuda/device.hpp"
@@ -65,16 +68,26 @@ void keep_freed_memory() {
   (void)mallopt(M_TOP_PAD, 16 << 20);
 }
 
+/// Returns the bytes of images that a worker keeps: the recordings of a seed of a study.
+std::size_t kept_bytes() {
+  constexpr std::size_t kMost = std::size_t{4} << 30, kShare = 16;  // of the memory
+  return std::min(kMost, memory_size() / kShare);
+}
+
 /// Makes the jobs that come through a socket, each in a thread, and answers.
 class Worker {
  public:
-  Worker(std::optional<int> gpu, const CommonOptions& common) : gpu_(gpu), common_(common) {}
+  Worker(std::optional<int> gpu, const CommonOptions& common) : gpu_(gpu), common_(common) {
+    constexpr std::size_t kFrames = 16;  // a study has as many sources or fewer
+    first_frames_.keep(kFrames);
+  }
 
   void serve() {
     keep_freed_memory();
     cv::setNumThreads(1);  // its threads are one per core, whatever the runs' own may be
     if (!take_gpu()) return;
     keep_imported_meshes();
+    keep_read_images(kept_bytes());
     LineBuffer lines;
     std::array<char, 4096> chunk;
     for (;;) {
@@ -104,7 +117,8 @@ class Worker {
       answer({Kind::absent, why});
       return false;
     }
-    cuda::page_lock_images(*gpu_);  // before threads make images
+    // Before threads make images; a gibibyte is for those that are not kept.
+    cuda::page_lock_images(*gpu_, kept_bytes() + (std::size_t{1} << 30));
     std::string name = cuda::Device(*gpu_).name();
     if (!cuda::claim_gpu(*gpu_)) name += ", which another hypotrack uses, too";
     answer({Kind::ready, name});
@@ -122,7 +136,7 @@ class Worker {
     });
   }
 
-  WorkerAnswer make(const Job& job, double limit_s) const {
+  WorkerAnswer make(const Job& job, double limit_s) {
     const hypotrack::detail::ThreadFrame unknown(std::nullopt);  // not that of another run
     LoggedRun watcher(job.log, interrupt_, limit_s);
     WorkerAnswer answer{Kind::ended, {}, job.key, 1};
@@ -139,10 +153,10 @@ class Worker {
   }
 
   /// Returns the exit code that a process of the run would have.
-  int run(const Job& job, LoggedRun& watcher) const {
+  int run(const Job& job, LoggedRun& watcher) {
     PluginLoader plugins(common_.plugin_path);
     if (job.check) {
-      watcher.say(check_scene(job.scene, job.set, plugins).backend);
+      watcher.say(check_scene(job.scene, job.set, plugins, std::nullopt, &first_frames_).backend);
       return 0;
     }
     const RunOptions options{.out = job.out, .frames = job.frames, .stop_now = [&watcher] {
@@ -171,6 +185,7 @@ class Worker {
   std::optional<int> gpu_;
   const CommonOptions& common_;
   const InterruptGuard interrupt_;
+  FirstFrames first_frames_{[](const std::shared_ptr<const Frame>&) { return std::size_t{1}; }};
   std::mutex answering_;
   std::list<Thread> runs_;
 };

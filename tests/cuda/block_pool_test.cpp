@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <random>
@@ -36,6 +37,21 @@ TEST(BlockPool, HandsOutEveryBlockGivenBackOnce) {
   std::sort(again.begin(), again.end());
   EXPECT_EQ(again, taken);
   EXPECT_EQ(host.allocations(), 8);
+}
+
+TEST(BlockPool, AllocatesSeveralBlocksAtOnceWithinItsBound) {
+  test::PoolOnHost host(9 << 16, 4 << 16);
+  std::vector<void*> taken(9);
+  for (void*& block : taken) {
+    block = host.pool.take(1 << 16);
+    ASSERT_TRUE(block);
+    std::memset(block, 1, 1 << 16);
+  }
+  EXPECT_EQ(host.pool.take(1 << 16), nullptr);
+  EXPECT_EQ(host.allocations(), 3);  // of four, four and one
+  std::sort(taken.begin(), taken.end());
+  for (std::size_t i = 1; i < taken.size(); ++i)
+    EXPECT_GE(static_cast<std::byte*>(taken[i]) - static_cast<std::byte*>(taken[i - 1]), 1 << 16);
 }
 
 TEST(BlockPool, BlocksHoldWhatWasAskedForAndAQuarterMoreAtMost) {

@@ -13,8 +13,8 @@ namespace hypotrack::test {
 /// A pool of ordinary memory, freed with it, that counts what it gets.
 class PoolOnHost {
  public:
-  explicit PoolOnHost(std::size_t bound)
-      : pool([this](std::size_t bytes) { return allocate(bytes); }, bound) {}
+  explicit PoolOnHost(std::size_t bound, std::size_t at_once = 0)
+      : pool([this](std::size_t bytes) { return allocate(bytes); }, bound, at_once) {}
 
   int allocations() const { return static_cast<int>(blocks_.size()); }
   std::size_t last_bytes() const { return blocks_.back().bytes; }

@@ -3,11 +3,14 @@
 #include <sched.h>
 #include <sys/socket.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -33,12 +36,36 @@ std::optional<Descriptor> bind(const std::string& name) {
   throw_system_error(errno, "cannot bind a socket");
 }
 
+/// Returns the limit of this process's control group (cgroup v2); the largest number without one.
+std::size_t group_limit() {
+  std::size_t limit = std::numeric_limits<std::size_t>::max();
+  std::ifstream groups("/proc/self/cgroup");
+  std::string line;
+  while (std::getline(groups, line) && !line.starts_with("0::")) continue;
+  if (!line.starts_with("0::")) return limit;
+  std::filesystem::path group = "/sys/fs/cgroup";
+  group += line.substr(3);
+  // A group has what each group above it has.
+  for (; group != group.root_path(); group = group.parent_path()) {
+    std::ifstream in(group / "memory.max");
+    std::size_t own = 0;
+    if (in >> own) limit = std::min(limit, own);
+  }
+  return limit;
+}
+
 }  // namespace
 
 int core_count() {
   cpu_set_t cores;
   if (sched_getaffinity(0, sizeof(cores), &cores) == 0) return std::max(1, CPU_COUNT(&cores));
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::size_t memory_size() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  const auto installed = static_cast<std::size_t>(std::max(0L, pages) * std::max(0L, page));
+  return std::min(installed, group_limit());
 }
 
 std::string processor_name() {

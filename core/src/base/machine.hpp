@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "base/exported.hpp"
@@ -9,6 +10,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the number of cores that this process may use, which a cluster may limit.
 int core_count();
+
+/// Returns the bytes of memory that this process may use, which a container may limit.
+std::size_t memory_size();
 
 /// Returns the processor's name: `Intel(R) Xeon(R) Gold 6448Y`, or `unknown processor`.
 std::string processor_name();

@@ -9,12 +9,26 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
+#include "base/kept_results.hpp"
+#include "camera/kept_images.hpp"
 #include "camera/orientation.hpp"
 
 namespace hypotrack {
 namespace {
+
+/// What an image is read as, and by which number: bits of a colour picture, metres of depth.
+enum class Kind { color, mask, depth };
+using ImageKey = std::tuple<FileVersion, Kind, double>;
+
+KeptResults<ImageKey, ReadImage>& images() {
+  static KeptResults<ImageKey, ReadImage> kept([](const ReadImage& read) {
+    return read.problem.empty() ? read.image.total() * read.image.elemSize() : 0;
+  });
+  return kept;
+}
 
 /// Calls a function that reads a file. Lack of memory is a problem of the file, but no damage.
 template <class Read>
@@ -26,6 +40,13 @@ ReadImage within_memory(const std::filesystem::path& file, const Read& read) {
   } catch (const std::bad_alloc&) {
   }
   return {{}, file.string() + ": there is not enough memory to decode it"};
+}
+
+/// Returns a kept image, or reads it.
+template <class Read>
+ReadImage kept(const std::filesystem::path& file, Kind kind, double number, const Read& read) {
+  if (!images().keeps()) return within_memory(file, read);
+  return images().get({version_of(file), kind, number}, [&] { return within_memory(file, read); });
 }
 
 /// Returns the words for the type of a file's pixels.
@@ -57,8 +78,10 @@ cv::Mat to_bgr(const cv::Mat& image) {
 
 }  // namespace
 
+void internal::keep_read_images(std::size_t bytes) { images().keep(bytes); }
+
 ReadImage read_color(const std::filesystem::path& file, int bits) {
-  return within_memory(file, [&]() -> ReadImage {
+  return kept(file, Kind::color, bits, [&]() -> ReadImage {
     DecodedFile read = decode_upright(file);
     if (!read.problem.empty()) return read;
     if (read.image.depth() != CV_8U && read.image.depth() != CV_16U) {
@@ -77,7 +100,7 @@ ReadImage read_color(const std::filesystem::path& file, int bits) {
 }
 
 ReadImage read_mask(const std::filesystem::path& file) {
-  return within_memory(file, [&]() -> ReadImage {
+  return kept(file, Kind::mask, 0, [&]() -> ReadImage {
     ReadImage read = decode_upright(file);
     if (!read.problem.empty()) return read;
     if (read.image.channels() == 1) {
@@ -99,7 +122,7 @@ ReadImage read_mask(const std::filesystem::path& file) {
 }
 
 ReadImage read_depth(const std::filesystem::path& file, double unit) {
-  return within_memory(file, [&]() -> ReadImage {
+  return kept(file, Kind::depth, unit, [&]() -> ReadImage {
     ReadImage read = decode_upright(file);
     if (!read.problem.empty()) return read;
     if (read.image.type() != CV_16UC1) {

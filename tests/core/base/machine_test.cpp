@@ -48,5 +48,11 @@ TEST(Claim, IsKeptByTheProcess) {
   EXPECT_FALSE(Another(name).taken());
 }
 
+TEST(Machine, HasTheMemoryThatThisProcessUses) {
+  EXPECT_GT(memory_size(), std::size_t{64} << 20);
+  EXPECT_LE(memory_size(), static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                               static_cast<std::size_t>(sysconf(_SC_PAGESIZE)));
+}
+
 }  // namespace
 }  // namespace hypotrack::internal

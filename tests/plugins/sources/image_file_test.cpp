@@ -4,13 +4,16 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "camera/kept_images.hpp"
 #include "hypotrack/media.hpp"
 #include "test_paths.hpp"
 
@@ -41,6 +44,24 @@ TEST(ImageFileDeathTest, LackOfMemoryIsNotCalledDamage) {
   };
   EXPECT_EXIT(read_with_little(), testing::ExitedWithCode(0),
               "large.png: there is not enough memory to decode it");
+}
+
+TEST(ImageFile, KeptImagesAreReadAnewWhereTheirFilesChange) {
+  const test::TemporaryDirectory folder;
+  const std::string file = (folder.path() / "grey.png").string();
+  ASSERT_TRUE(write_image(file, cv::Mat(4, 6, CV_8U, cv::Scalar(7))));
+  EXPECT_NE(read_color(file).image.data, read_color(file).image.data);
+  internal::keep_read_images(1 << 20);
+  const cv::Mat first = read_color(file).image;
+  EXPECT_EQ(read_color(file).image.data, first.data);
+  EXPECT_EQ(read_mask(file).image.type(), CV_8UC1);
+  ASSERT_TRUE(write_image(file, cv::Mat(5, 6, CV_8U, cv::Scalar(9))));
+  std::filesystem::last_write_time(
+      file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(2));
+  EXPECT_EQ(read_color(file).image.rows, 5);
+  std::filesystem::remove(file);
+  EXPECT_NE(read_color(file).problem, "");
+  internal::keep_read_images(0);
 }
 
 /// Encodes a small picture and returns its bytes with another size in its header: 2 bytes for

@@ -24,8 +24,8 @@ SizeClass size_class(std::size_t bytes) {
 
 }  // namespace
 
-BlockPool::BlockPool(Allocate allocate, std::size_t bound)
-    : allocate_(std::move(allocate)), bound_(bound) {}
+BlockPool::BlockPool(Allocate allocate, std::size_t bound, std::size_t at_once)
+    : allocate_(std::move(allocate)), bound_(bound), at_once_(at_once) {}
 
 void* BlockPool::take(std::size_t bytes) {
   std::unique_lock lock(mutex_);
@@ -36,21 +36,31 @@ void* BlockPool::take(std::size_t bytes) {
     return block;
   }
   if (size.capacity > bound_ || reserved_ > bound_ - size.capacity) return nullptr;
-  reserved_ += size.capacity;
+  const std::size_t blocks =
+      std::clamp<std::size_t>(at_once_ / size.capacity, 1, (bound_ - reserved_) / size.capacity);
+  reserved_ += blocks * size.capacity;
   lock.unlock();  // other threads need not wait for the slow allocation
-  void* block = allocate_(size.capacity);
-  if (block) return block;
+  void* first = allocate_(blocks * size.capacity);
   lock.lock();
-  reserved_ -= size.capacity;
-  bound_ = std::min(bound_, reserved_);
-  return nullptr;
+  if (!first) {
+    reserved_ -= blocks * size.capacity;
+    bound_ = std::min(bound_, reserved_);
+    return nullptr;
+  }
+  for (std::size_t i = 1; i < blocks; ++i)
+    put(static_cast<std::byte*>(first) + i * size.capacity, size.index);
+  return first;
+}
+
+void BlockPool::put(void* block, std::size_t index) noexcept {
+  std::memcpy(block, &kept_[index], sizeof(void*));
+  kept_[index] = block;
 }
 
 void BlockPool::give_back(void* block, std::size_t bytes) noexcept {
   const SizeClass size = size_class(bytes);
   const std::scoped_lock lock(mutex_);
-  std::memcpy(block, &kept_[size.index], sizeof(void*));
-  kept_[size.index] = block;
+  put(block, size.index);
 }
 
 }  // namespace hypotrack::cuda::internal

@@ -17,8 +17,9 @@ class BlockPool {
   /// Allocates memory aligned to 64 bytes; returns null on failure and does not throw.
   using Allocate = std::function<void*(std::size_t bytes)>;
 
-  /// Allocates at most `bound` bytes in total, and nothing more once `allocate` has failed.
-  BlockPool(Allocate allocate, std::size_t bound);
+  /// Allocates at most `bound` bytes in total, and nothing more once `allocate` has failed. Blocks
+  /// of up to `at_once` bytes together are allocated at once.
+  BlockPool(Allocate allocate, std::size_t bound, std::size_t at_once = 0);
 
   /// Returns a block of at least `bytes` (1 or more) with undefined content, or null if no memory
   /// is left.
@@ -30,9 +31,12 @@ class BlockPool {
  private:
   static constexpr std::size_t kClasses = 256;
 
+  void put(void* block, std::size_t index) noexcept;
+
   Allocate allocate_;
   std::mutex mutex_;
   std::size_t bound_;
+  std::size_t at_once_;
   std::size_t reserved_ = 0;
   std::array<void*, kClasses> kept_{};  // linked lists: a block starts with the next address
 };

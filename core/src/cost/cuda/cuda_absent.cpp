@@ -18,7 +18,7 @@ bool claim_gpu(int) { return true; }
 std::optional<std::size_t> free_memory(int) { return std::nullopt; }
 void wait_for_device() {}
 
-void page_lock_images(int) {}
+void page_lock_images(int, std::size_t) {}
 
 Device::Device(int index) : index_(index) {
   throw DeviceError("evaluate.backend: cuda: " + why_no_device() +

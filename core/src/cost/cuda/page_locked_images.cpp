@@ -10,8 +10,6 @@
 namespace hypotrack::cuda::internal {
 namespace {
 
-constexpr std::size_t kBound = std::size_t{1} << 30;
-
 void* page_locked(std::size_t bytes, int device) {
   void* block = nullptr;
   const auto reserve = [&] {
@@ -32,17 +30,19 @@ void* page_locked(std::size_t bytes, int device) {
 }
 
 /// Makes the allocator, which is never destroyed because some images outlive everything else.
-PooledMatAllocator* make_allocator(int device) {
-  auto* pool = new BlockPool([device](std::size_t n) { return page_locked(n, device); }, kBound);
+PooledMatAllocator* make_allocator(int device, std::size_t most) {
+  constexpr std::size_t kAtOnce = 16 << 20;  // to lock pages takes a driver a millisecond
+  auto* pool =
+      new BlockPool([device](std::size_t n) { return page_locked(n, device); }, most, kAtOnce);
   return new PooledMatAllocator(*pool);
 }
 
 }  // namespace
 
-void page_lock_images(int device) {
+void page_lock_images(int device, std::size_t most) {
   if (!why_no_device(device).empty() || !why_not_this_device(device).empty()) return;
-  static const cv::MatAllocator* const installed = [device] {
-    cv::MatAllocator* allocator = make_allocator(device);
+  static const cv::MatAllocator* const installed = [device, most] {
+    cv::MatAllocator* allocator = make_allocator(device, most);
     cv::Mat::setDefaultAllocator(allocator);
     return allocator;
   }();
