@@ -19,6 +19,7 @@
 #include "lab/study/check_cells.hpp"
 #include "lab/study/execute.hpp"
 #include "lab/study/plan.hpp"
+#include "lab/study/recordings.hpp"
 #include "lab/study/study_file.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
@@ -165,15 +166,20 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   tell("{}: {} runs in {} cells, {} to make here; {} at a time, {} thread{} each\n",
        plan.study.title, plan.runs.size(), plan.cells.size(), runs.size(), launch.jobs,
        launch.threads, launch.threads == 1 ? "" : "s");
-  const auto gpus =
-      study::check_cells(plan, cells, launch, crew, [&] { return !interrupt.interrupted(); });
+  study::Recordings recordings(folder, plan, runs, launch);
+  study::RecordingsAhead ahead(folder, recordings, runs, launch);
+  const auto gpus = study::check_cells(plan, cells, launch, crew, [&] {
+    ahead.go_on();
+    return !interrupt.interrupted();
+  });
   if (interrupt.interrupted()) {
     tell("hypotrack: interrupted before the first run\n");
     return kInterruptedExitCode;
   }
+  ahead.keep();
   folder.begin();
   Console console(plan, runs.size(), interrupt);
-  const bool complete = study::execute(folder, plan, runs, launch, gpus, crew, console);
+  const bool complete = study::execute(folder, plan, runs, launch, gpus, crew, recordings, console);
   return conclude(study::write_tables(folder, plan), folder, complete);
 }
 

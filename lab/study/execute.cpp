@@ -29,14 +29,14 @@ class Execution {
  public:
   Execution(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
             const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
-            Watcher& watcher)
+            Recordings& recordings, Watcher& watcher)
       : folder_(folder),
         plan_(plan),
         launch_(launch),
         gpus_(gpus),
         crew_(crew),
         watcher_(watcher),
-        recordings_(folder, plan, runs, launch),
+        recordings_(recordings),
         order_(plan),
         jobs_(static_cast<std::size_t>(launch.jobs)),
         most_beside_(std::min(static_cast<std::size_t>(launch.spare_cores / launch.threads),
@@ -88,7 +88,7 @@ class Execution {
   Watcher& watcher_;
   std::deque<Waiting> waiting_;
   std::map<std::size_t, RunFolder> working_;
-  Recordings recordings_;
+  Recordings& recordings_;
   RunOrder order_;
   std::size_t jobs_;
   std::size_t most_beside_;     ///< recordings on cores that no run uses
@@ -192,8 +192,8 @@ Watcher::~Watcher() = default;
 
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
              const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
-             Watcher& watcher) {
-  return Execution(folder, plan, runs, launch, gpus, crew, watcher).work();
+             Recordings& recordings, Watcher& watcher) {
+  return Execution(folder, plan, runs, launch, gpus, crew, recordings, watcher).work();
 }
 
 }  // namespace hypotrack::study::internal

@@ -8,6 +8,7 @@
 #include "base/exported.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
+#include "lab/study/recordings.hpp"
 #include "lab/study/study_folder.hpp"
 #include "run/crew/crew.hpp"
 
@@ -27,13 +28,13 @@ class Watcher {
 };
 
 /// Makes the given runs (indices into the plan) with a crew, and the recordings that they read
-/// beside them. `gpus`: number of the GPU of each cell
-/// that takes one. Also waits for runs that other processes are making. Records failures in the
-/// folder. Throws DataError if a recording failed. Returns false if the watcher, or somebody who
-/// interrupted a run, ended the work early; unfinished runs are then given up. Throws OutputError.
+/// beside them. `gpus`: number of the GPU of each cell that takes one. Also waits for runs that
+/// other processes are making. Records failures in the folder. Throws DataError if a recording
+/// failed. Returns false if the watcher, or somebody who interrupted a run, ended the work early;
+/// unfinished runs are then given up. Throws OutputError.
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
              const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
-             Watcher& watcher);
+             Recordings& recordings, Watcher& watcher);
 
 }  // namespace internal
 }  // namespace hypotrack::study

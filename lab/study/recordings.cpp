@@ -98,7 +98,10 @@ bool Recordings::take_in_hand(const Wanted& wanted, bool may_start) {
   auto claimed = folder_.claim_recording(wanted.id);
   if (!claimed) return false;  // another process makes it
   if (is_there()) return there_.insert(wanted.id).second;
-  pool_.start(wanted.run, synth_command(plan_, plan_.runs[wanted.run], launch_, *claimed));
+  Subprocess::Command command = synth_command(plan_, plan_.runs[wanted.run], launch_, *claimed);
+  if (const auto& gpus = launch_.gpus; !gpus.empty())  // in turn, so that no GPU's runs wait more
+    command.variables.push_back(fmt::format("HYPOTRACK_GL_GPU={}", gpus[begun_++ % gpus.size()]));
+  pool_.start(wanted.run, std::move(command));
   working_.emplace(wanted.run, *std::move(claimed));
   return true;
 }
@@ -114,6 +117,16 @@ void Recordings::finish(const Ended& ended) {
   folder.put_into_place();
   working_.erase(ended.key);
   there_.insert(ids_.at(ended.key));
+  made_.insert(ids_.at(ended.key));
+}
+
+void Recordings::discard() {
+  pool_ = ProcessPool(0);
+  working_.clear();
+  if (folder_.has_plan()) return;
+  std::error_code ignored;
+  for (const std::string& id : made_)
+    std::filesystem::remove_all(folder_.recording_path(id), ignored);
 }
 
 void Recordings::remove_if_read(std::size_t run) const {
@@ -126,6 +139,35 @@ void Recordings::remove_if_read(std::size_t run) const {
   });
   std::error_code ignored;  // another process may be faster
   if (read) std::filesystem::remove_all(folder_.recording_path(id->second), ignored);
+}
+
+RecordingsAhead::RecordingsAhead(const StudyFolder& folder, Recordings& recordings,
+                                 const std::vector<std::size_t>& runs, const Launch& launch)
+    : folder_(folder), recordings_(recordings) {
+  if (runs.empty() || !recordings.are_wanted()) return;
+  first_ = std::ranges::min(runs);
+  room_ = static_cast<std::size_t>(launch.spare_cores / launch.threads);
+  if (room_ > 0) folder.open();
+}
+
+RecordingsAhead::~RecordingsAhead() {
+  if (kept_ || room_ == 0) return;
+  recordings_.discard();
+  folder_.abandon();
+}
+
+void RecordingsAhead::go_on() {
+  if (room_ == 0 || failure_) return;
+  try {
+    (void)recordings_.go_on(first_, room_ - std::min(room_, recordings_.size()), 0);
+  } catch (const DataError&) {
+    failure_ = std::current_exception();
+  }
+}
+
+void RecordingsAhead::keep() {
+  if (failure_) std::rethrow_exception(failure_);
+  kept_ = true;
 }
 
 Job job_of(const StudyFolder& folder, const Plan& plan, const PlannedRun& run,

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <set>
 #include <string>
@@ -37,12 +38,17 @@ class Recordings {
 
   /// Returns true if a run may begin: its recording is there, or it reads none.
   bool are_there_for(std::size_t run) const;
+  /// Returns whether some are neither there nor begun.
+  bool are_wanted() const { return !wanted_.empty(); }
   /// Returns the number of recordings being made by this process.
   std::size_t size() const { return pool_.size(); }
   /// Starts up to `room` recordings of the seed of `next`, the run to be made next, and up to
   /// `ahead` others. Puts complete ones into place. Returns false if nothing happened. Throws
   /// DataError with the error of a failed recording.
   bool go_on(std::size_t next, std::size_t room, std::size_t ahead);
+  /// Ends the recordings being made, and removes those that were unless another process has begun
+  /// the study.
+  void discard();
   /// Removes the recording of a run if its noise was redrawn and the study has all runs that read
   /// it.
   void remove_if_read(std::size_t run) const;
@@ -66,9 +72,35 @@ class Recordings {
   std::map<std::int64_t, std::size_t> seeds_;                ///< their order
   std::vector<Wanted> wanted_;   ///< not begun, in the order of the runs
   std::set<std::string> there_;  ///< complete
+  std::set<std::string> made_;   ///< by this process
+  std::size_t begun_ = 0;        ///< by this process
   Clock::time_point next_look_;
   std::map<std::size_t, RunFolder> working_;  ///< outlives the processes of pool_
   ProcessPool pool_;
+};
+
+/// Makes the first recordings of a study on cores that no run uses, while its cells are checked.
+/// Takes them back at its end unless the study begins.
+class RecordingsAhead {
+ public:
+  /// `runs`: those to be made. All arguments must outlive the object.
+  RecordingsAhead(const StudyFolder& folder, Recordings& recordings,
+                  const std::vector<std::size_t>& runs, const Launch& launch);
+  ~RecordingsAhead();
+  RecordingsAhead(const RecordingsAhead&) = delete;
+  RecordingsAhead& operator=(const RecordingsAhead&) = delete;
+
+  /// Starts and ends recordings. A failure waits: a check may tell it better.
+  void go_on();
+  /// Leaves the recordings to the study. Throws DataError if one failed.
+  void keep();
+
+ private:
+  const StudyFolder& folder_;
+  Recordings& recordings_;
+  std::size_t first_ = 0, room_ = 0;  ///< the first run; recordings at a time
+  std::exception_ptr failure_;
+  bool kept_ = false;
 };
 
 /// Returns the job of a run: the scene and its settings. The scene of a recording already contains

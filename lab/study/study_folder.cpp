@@ -77,18 +77,32 @@ void StudyFolder::check_same_study() const {
       folder_.string(), foreign, all, differences(read_text(folder_ / kStudyFile), *plan_)));
 }
 
+bool StudyFolder::has_plan() const { return std::filesystem::exists(folder_ / kPlanFile); }
+
 bool StudyFolder::begun() const { return read_text(folder_ / kPlanFile) == plan_text(*plan_); }
 
-void StudyFolder::begin() const {
+void StudyFolder::open() const {
   make_folder(working());
+  if (!open_) open_ = std::make_shared<const OpenFolder>(folder_);
+}
+
+void StudyFolder::begin() const {
+  open();
   make_folder(folder_ / "runs");
-  open_ = std::make_shared<const OpenFolder>(folder_);
   const FileLock guard = lock();
   // Another study may have begun since the constructor looked.
   if (std::filesystem::exists(folder_ / kPlanFile)) check_same_study();
   write_whole(folder_ / kStudyFile, to_yaml(plan_->study));
   write_whole(folder_ / kPlanFile, plan_text(*plan_));
   remove_leftovers();
+}
+
+void StudyFolder::abandon() const {
+  if (!open_ || has_plan()) return;
+  remove_leftovers();
+  std::error_code ignored;  // folders with the work of others stay
+  for (const auto& folder : {working(), folder_ / "recordings", folder_})
+    std::filesystem::remove(folder, ignored);
 }
 
 // Processes that make the runs open files by their paths, which another study may have now.

@@ -35,9 +35,15 @@ class StudyFolder {
   const std::filesystem::path& path() const { return folder_; }
   /// Returns whether a process has begun exactly this plan.
   bool begun() const;
-  /// Makes the folder, writes the plan and removes leftovers of killed processes. Throws
+  /// Makes the folder, so that recordings can be made in it. Throws OutputError.
+  void open() const;
+  /// Opens the folder, writes the plan and removes leftovers of killed processes. Throws
   /// OutputError.
   void begin() const;
+  /// Returns whether a process has begun a study here, which others may work on.
+  bool has_plan() const;
+  /// Removes what an opened folder without a plan holds beside the work of other processes.
+  void abandon() const;
 
   RunState state(const PlannedRun& run) const;
   std::filesystem::path run_path(const PlannedRun& run) const;
@@ -52,7 +58,7 @@ class StudyFolder {
 
  private:
   void check_same_study() const;
-  /// Throws OutputError if the folder was renamed or removed after begin().
+  /// Throws OutputError if the folder was renamed or removed after open().
   void expect_in_place() const;
   std::optional<RunFolder> claim(const std::string& id, const std::filesystem::path& final) const;
   void remove_leftovers() const;
@@ -60,7 +66,7 @@ class StudyFolder {
 
   std::filesystem::path folder_;
   const Plan* plan_;
-  mutable std::shared_ptr<const OpenFolder> open_;  ///< after begin()
+  mutable std::shared_ptr<const OpenFolder> open_;  ///< after open()
 };
 
 }  // namespace internal

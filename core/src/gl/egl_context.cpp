@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstdlib>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "base/numbers.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::gl::internal {
@@ -30,6 +34,15 @@ struct Made {
   std::string device;
   std::string problem;  // why there is no context, otherwise empty
 };
+
+std::atomic<int> preferred_gpu = -1;  // -1: any
+
+/// Returns the number of the GPU that is to draw; -1: any.
+int wanted_gpu() {
+  const char* const named = std::getenv("HYPOTRACK_GL_GPU");
+  const auto number = named ? detail::parse_integer(named) : std::nullopt;
+  return number ? static_cast<int>(*number) : preferred_gpu.load();
+}
 
 bool has_word(const char* words, std::string_view word) {
   std::string_view rest = words ? words : "";
@@ -73,11 +86,16 @@ void add_devices(const char* client_extensions, std::vector<Candidate>& candidat
   if (!enumerates || !has_word(client_extensions, "EGL_EXT_platform_device")) return;
   std::array<EGLDeviceEXT, 32> devices{};
   EGLint count = 0;
+  const int wanted = wanted_gpu();
   if (!eglQueryDevicesEXT(static_cast<EGLint>(devices.size()), devices.data(), &count)) return;
   for (EGLint i = 0; i < count; ++i) {
     const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
     int rank = 1;
-    if (has_word(extensions, "EGL_NV_device_cuda")) rank = 0;
+    if (has_word(extensions, "EGL_NV_device_cuda")) {
+      EGLAttrib number = -1;
+      const bool told = eglQueryDeviceAttribEXT(devices[i], EGL_CUDA_DEVICE_NV, &number);
+      rank = told && number == wanted ? -1 : 0;
+    }
     if (has_word(extensions, "EGL_MESA_device_software")) rank = 2;
     candidates.push_back(
         {fmt::format("EGL device {}", i), EGL_PLATFORM_DEVICE_EXT, devices[i], rank});
@@ -209,6 +227,8 @@ Context::Context() {
   throw DeviceError(
       fmt::format("no OpenGL 3.3 context without a window; tried:{}\n{}", tried, advice));
 }
+
+void prefer_gpu(int number) { preferred_gpu = number; }
 
 Context::~Context() { eglDestroyContext(display_, context_); }
 

@@ -7,9 +7,10 @@
 namespace hypotrack::gl {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// An OpenGL core context (3.3 or newer) without a window. It tries NVIDIA's devices, other
-/// graphics devices, software devices and Mesa's surfaceless platform, in this order. The displays
-/// belong to the process and are never closed, because other contexts may use them.
+/// An OpenGL core context (3.3 or newer) without a window. It tries NVIDIA's devices (the
+/// preferred one first), other graphics devices, software devices and Mesa's surfaceless platform,
+/// in this order. The displays belong to the process and are never closed, because other contexts
+/// may use them.
 class Context {
  public:
   /// Throws DeviceError, which lists what was tried and why it failed.
@@ -46,6 +47,10 @@ class CurrentContext {
   void* former_draw_;
   void* former_read_;
 };
+
+/// Makes later contexts of this process draw on an NVIDIA GPU by its number for CUDA, where EGL
+/// offers it. The variable HYPOTRACK_GL_GPU goes before.
+void prefer_gpu(int number);
 
 /// Throws DeviceError unless as many threads can be started as Mesa's software rasteriser starts:
 /// it waits for ever for threads that do not start.

@@ -10,6 +10,7 @@
 #include "config/yaml.hpp"
 #include "cost/cost.hpp"
 #include "cost/cuda/page_locked_images.hpp"
+#include "gl/egl_context.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/text.hpp"
 #include "plugin/plugin_call.hpp"
@@ -145,6 +146,7 @@ void Opening::models() {
 
 void Opening::source() {
   if (!file_.source.defined()) detail::fail_at(root_.get("source"), "required key is missing");
+  gl::prefer_gpu(file_.evaluate.device);
   YamlDocument record;
   auto made = make<Source>(file_.source, record);
   std::string who = detail::plugin_label(kPluginKind<Source>, file_.source, made.get());

@@ -192,6 +192,16 @@ TEST_F(CompareFailureTest, ARecordingThatFailsIsNamedWithItsPlaceInTheStudy) {
                                  HasSubstr("the file is broken")));
 }
 
+// On a machine with one core there is none beside the only run, and nothing is recorded early.
+TEST_F(CompareFailureTest, RecordingsMadeDuringTheChecksGoWithARefusedStudy) {
+  const std::string text =
+      replaced(study(), "[4, 8]", "[4, 5, 6, 7, 8, 9, 10, -1]") + "recordings: true\n";
+  const Outcome outcome = compare(text, "out", {"--jobs", "1", "--threads", "1"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("nothing was run"));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
 TEST_F(CompareFailureTest, AFolderOfSomethingElseIsRefused) {
   std::filesystem::create_directory(path("out"));
   write_text(path("out/thesis.tex"), "a year's work");

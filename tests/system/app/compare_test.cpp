@@ -147,7 +147,7 @@ TEST_F(CompareTest, SeedsGetPicturesOfTheirOwnThatAllSettingsShare) {
 
 TEST_F(CompareTest, RecordingsMadeAheadOfTheirRunsChangeNoTable) {
   const std::string recorded = replaced(study(), "seeds: 2", "seeds: 4") + "recordings: true\n";
-  const Outcome one_by_one = compare(recorded, "a", {"--jobs", "1"});
+  const Outcome one_by_one = compare(recorded, "a", {"--jobs", "1", "--threads", "1"});
   ASSERT_EQ(one_by_one.exit_code, 0) << one_by_one.err;
   const Outcome together = compare(recorded, "b", {"--jobs", "8", "--threads", "1"});
   ASSERT_EQ(together.exit_code, 0) << together.err;
