@@ -23,6 +23,7 @@ constexpr std::chrono::milliseconds kRunPoll{5};
 constexpr std::chrono::milliseconds kRetry{500};  // interval of looks at a run that another process
                                                   // is making
 constexpr std::size_t kShareAhead = 4;            // of the jobs may make recordings for later
+constexpr std::size_t kShareBeside = 2;           // and on cores that no run uses
 constexpr int kInterrupted = 130;                 // exit code of a run that was told to stop
 
 class Execution {
@@ -40,7 +41,7 @@ class Execution {
         order_(plan),
         jobs_(static_cast<std::size_t>(launch.jobs)),
         most_beside_(std::min(static_cast<std::size_t>(launch.spare_cores / launch.threads),
-                              jobs_ / kShareAhead)) {
+                              jobs_ / kShareBeside)) {
     for (const std::size_t run : runs) waiting_.push_back({run, {}, folder_.state(plan.runs[run])});
   }
 

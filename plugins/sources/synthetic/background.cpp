@@ -125,30 +125,33 @@ void draw_over(std::vector<RenderedView>& views, std::vector<Mesh> meshes,
 
 }  // namespace
 
-std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
-                                           const std::vector<Camera>& cameras,
-                                           const RenderStyle& light, const Eigen::Vector3d& skin,
-                                           const std::string& where) {
+Backgrounds::Backgrounds(const BackgroundParams& params, const std::vector<Camera>& cameras,
+                         const RenderStyle& light, const Eigen::Vector3d& skin,
+                         const std::string& where)
+    : cameras_(cameras) {
   const bool surfaces = params.kind != BackgroundKind::color;
-  std::vector<RenderedView> views;
   const cv::Scalar bgr(params.color.z(), params.color.y(), params.color.x());
   for (const Camera& c : cameras) {
     const cv::Size size(c.width, c.height);
-    views.push_back({cv::Mat(size, CV_8UC3, surfaces ? cv::Scalar() : bgr),
-                     cv::Mat::zeros(size, CV_32FC1),
-                     {}});
+    views_.push_back({cv::Mat(size, CV_8UC3, surfaces ? cv::Scalar() : bgr),
+                      cv::Mat::zeros(size, CV_32FC1),
+                      {}});
   }
-  if (surfaces)
-    draw_over(views, surfaces_of(params, seen_wall(cameras, params.distance)), cameras, {});
-  if (!params.person) return views;
+  if (surfaces) layers_.push_back({surfaces_of(params, seen_wall(cameras, params.distance)), {}});
+  if (!params.person) return;
   if (surfaces && params.person->distance >= params.distance) {
     throw ConfigError(
         fmt::format("{}: background.person.distance_mm is {:.6g}, expected less than that of the "
                     "wall, {:.6g}",
                     where, params.person->distance / kMillimetre, params.distance / kMillimetre));
   }
-  draw_over(views, make_person(*params.person, skin, where), cameras, light);
-  return views;
+  layers_.push_back({make_person(*params.person, skin, where), light});
+}
+
+const std::vector<RenderedView>& Backgrounds::views() {
+  for (Layer& layer : layers_) draw_over(views_, std::move(layer.meshes), cameras_, layer.style);
+  layers_.clear();
+  return views_;
 }
 
 }  // namespace hypotrack::synthetic

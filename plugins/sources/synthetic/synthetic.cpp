@@ -125,8 +125,7 @@ class Synthetic final : public Source {
         exposure_(checked_exposure(params, context.config())),
         stage_(scene_, params.render_models, params.forearm,
                make_cards(params.cards, context.config().get("cards"), frame_rate_), context),
-        backgrounds_(draw_backgrounds(params.background, cameras_, style_, stage_.skin(),
-                                      context.config().where())),
+        backgrounds_(params.background, cameras_, style_, stage_.skin(), context.config().where()),
         renderer_(stage_.scene()) {
     for (const auto& [first, last] : script_.absences) faults_.add_absence(first, last);
     frames_ = params.frames > 0 ? params.frames : frames_of_motion(context.config().where());
@@ -157,13 +156,14 @@ class Synthetic final : public Source {
     style_.hidden = stage_.hidden(frame.truth->absent, number);
     const std::vector<Eigen::VectorXd> others = other_states(frame.time, state);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      RenderedView rendered = renderer_.render(state, cameras_[i], style_, backgrounds_[i].color);
+      RenderedView rendered =
+          renderer_.render(state, cameras_[i], style_, backgrounds_.views()[i].color);
       blur(rendered.color, others, i);
       sensor_.apply(rendered.color, number, i);
       View view{.color = std::move(rendered.color), .mask = stage_.mask(rendered.label)};
       if (depth_) {
         view.depth = std::move(rendered.depth);
-        backgrounds_[i].depth.copyTo(view.depth, rendered.label == 0);
+        backgrounds_.views()[i].depth.copyTo(view.depth, rendered.label == 0);
         depth_sensor_.apply(view.depth, number, i);
       }
       frame.views.push_back(std::move(view));
@@ -209,7 +209,8 @@ class Synthetic final : public Source {
     color.convertTo(sum, CV_32F);
     for (const Eigen::VectorXd& state : others) {
       cv::add(sum,
-              renderer_.render(state, cameras_[camera], style_, backgrounds_[camera].color).color,
+              renderer_.render(state, cameras_[camera], style_, backgrounds_.views()[camera].color)
+                  .color,
               sum, {}, CV_32F);
     }
     sum.convertTo(color, CV_8U, 1.0 / static_cast<double>(others.size() + 1));
@@ -237,7 +238,7 @@ class Synthetic final : public Source {
   const bool depth_;
   const double exposure_;
   const Stage stage_;
-  const std::vector<RenderedView> backgrounds_;
+  Backgrounds backgrounds_;
   Renderer renderer_;
   int frames_ = 0;
   int next_ = 0;       ///< frame of the motion
