@@ -25,7 +25,7 @@ case $mode in
 esac
 
 source scripts/setup.sh
-for list in test detector package; do install_missing_packages packages-$list.txt; done
+for list in test detector package site; do install_missing_packages packages-$list.txt; done
 
 # build_dev TARGET: builds it and gets the hand detector, without which its tests are skipped.
 build_dev() {
