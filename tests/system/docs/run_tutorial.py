@@ -2,8 +2,8 @@
 """Runs a tutorial in a new folder: what its hidden comment prepares, the files that it tells to write and its commands.
 
 run_tutorial.py PAGE SOURCE_DIR BUILD_DIR. Exit code 77: a comment `needs: FOLDER` names a folder that is missing,
-for example $HAND_DETECTOR. Commands find the scenes to record in $RECORDINGS, the programs of the tests in $SUPPORT and
-the build in $BUILD; $PREFIX is where they may install it.
+for example $HAND_DETECTOR. Commands find scenes to record in $RECORDINGS and the build in
+$BUILD; $PREFIX is where they may install it.
 """
 
 import os
@@ -37,10 +37,10 @@ def main():
     page, source, build = (Path(a).resolve() for a in sys.argv[1:])
     data_home = os.environ.get("XDG_DATA_HOME") or str(Path.home() / ".local/share")
     os.environ.update(
-        PATH=f"{build / 'bin'}:{os.environ['PATH']}",
+        # Debian's Python, which runs this, has Debian's packages
+        PATH=f"{build / 'bin'}:{Path(sys.executable).parent}:{os.environ['PATH']}",
         HAND_DETECTOR=f"{data_home}/hypotrack/hand_detector",
         RECORDINGS=str(source / "tests/system/docs/recordings"),
-        SUPPORT=str(source / "tests/support"),
         BUILD=str(build),
     )
     text = page.read_text()
