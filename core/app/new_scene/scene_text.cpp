@@ -101,12 +101,10 @@ std::string tracker_name(const SceneRequest& request) {
 }
 
 /// Sets what a live camera must not wait for: searches in another thread, and no video.
-void set_live(YamlDocument& scene, const std::string& tracker) {
-  YamlDocument recovery, output, keys;
+void set_live(YamlDocument& scene) {
+  YamlDocument recovery, output;
   recovery.set_string("run", "background");
-  keys.set_string("from", tracker);
-  keys.set("recovery", recovery);
-  scene.set("tracker", keys);
+  scene.set("recovery", recovery);
   output.set_plain("overlay", "false");
   scene.set("output", output);
 }
@@ -119,10 +117,10 @@ std::string scene_text(const SceneRequest& request, const std::filesystem::path&
   scene.set("source", source(request, folder));
   const bool live = request.recording.live.has_value();
   scene.set_string("tracker", tracker_name(request));
+  if (live) set_live(scene);
   YamlDocument init;
   init.set_string("from", "auto");
   scene.set("init", init);
-  if (live) set_live(scene, tracker_name(request));
   if (!live && request.tracker == "real") {  // which has the hand detector, as this needs
     YamlDocument shape;
     shape.set_plain("estimate_s", "2");

@@ -116,6 +116,7 @@ TEST(SceneText, HasTheSettingsOfLiveCameras) {
   EXPECT_THAT(app::scene_text(request, ""),
               AllOf(HasSubstr("device: \"0\""), HasSubstr("width: 2560"), HasSubstr("height: 720"),
                     HasSubstr("fps: 60"), HasSubstr("pixel_format: MJPG"),
+                    HasSubstr("tracker: \"@trackers/real\"\nrecovery:\n  run: background\n"),
                     testing::Not(HasSubstr("estimate_s"))));
 }
 
