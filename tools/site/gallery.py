@@ -19,10 +19,11 @@ EVERY = 2  # frames of the recording for one of the picture
 
 
 def scenes(root):
-    """Returns (name, file) of each scene; a file without a source, such as one of gestures, is none."""
+    """Returns (name, file) of each scene, demo first; a file without a source, such as one of gestures, is none."""
     folder = root / "configs/scenes"
-    return [(str(f.relative_to(folder).with_suffix("")), f) for f in sorted(folder.rglob("*.yaml"))
-            if re.search(r"^source:", f.read_text(), re.M)]
+    found = [(str(f.relative_to(folder).with_suffix("")), f) for f in folder.rglob("*.yaml")
+             if re.search(r"^source:", f.read_text(), re.M)]
+    return sorted(found, key=lambda scene: (scene[0] != "demo", "/" in scene[0], scene[0]))
 
 
 def run(command):
