@@ -10,8 +10,13 @@ HIDDEN = re.compile(r"::(detail|internal)(::|$)")
 FUNCTIONS = ("function", "variable", "typedef", "enum", "define")
 
 
+def without_targets(name):
+    """Returns a name without the namespace that each instruction set has."""
+    return re.sub(r"(HWY_NAMESPACE|HYPOTRACK_TARGET)::", "", name)
+
+
 def name_of(compound):
-    return compound.findtext("compoundname").replace("HWY_NAMESPACE::", "")
+    return without_targets(compound.findtext("compoundname"))
 
 
 def is_public(member):
@@ -113,7 +118,7 @@ def anchor(name):
 
 
 def scoped_name(member):
-    return (member.findtext("qualifiedname") or member.findtext("name")).replace("HWY_NAMESPACE::", "")
+    return without_targets(member.findtext("qualifiedname") or member.findtext("name"))
 
 
 def joined(type_html):
