@@ -111,7 +111,7 @@ int fit_judge(const FitJudgeOptions& options, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
   const ConfigNode node = ConfigNode::parse("{type: " + options.judge + "}", "--judge");
   const std::unique_ptr<Judge> judge = plugins.make<Judge>(node);
-  judge->set_label(detail::plugin_label(kPluginKind<Judge>, node, judge.get()));
+  detail::set_label(*judge, kPluginKind<Judge>, node);
   expect_fits(*judge);
   JudgeFit all;
   all.right = options.right_mm * kMillimetre;

@@ -28,13 +28,13 @@ class LiveRun::SnapshotOutput final : public Output {
   explicit SnapshotOutput(LiveRun& live) : live_(live) {}
   ~SnapshotOutput() override { live_.close(); }
 
-  std::vector<std::string> file_names() const override {
+ private:
+  std::vector<std::string> do_file_names() const override {
     return {"snapshot_#.png", "snapshot_#.yaml"};
   }
-  void begin(OutputContext& run) override { live_.open(run); }
-  void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
+  void do_begin(OutputContext& run) override { live_.open(run); }
+  void do_frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
 
- private:
   LiveRun& live_;
 };
 

@@ -74,12 +74,13 @@ class Regressor final : public hypotrack::Objective, public hypotrack::ResidualT
     }
   }
 
-  bool needs_rendering() const override { return false; }
-  hypotrack::ImageUse image_use() const override {
+ private:
+  bool do_needs_rendering() const override { return false; }
+  hypotrack::ImageUse do_image_use() const override {
     return {.color = false, .mask = false, .depth = false};
   }
 
-  void prepare(const hypotrack::Observation& observation) override {
+  void do_prepare(const hypotrack::Observation& observation) override {
     const auto found = poses_.find(observation.frame);
     knows_ = found != poses_.end();
     if (!knows_) return;
@@ -94,31 +95,32 @@ class Regressor final : public hypotrack::Objective, public hypotrack::ResidualT
       if (pull.is_quaternion && same[pull.model] < 0) pull.target = -pull.target;
   }
 
-  double cost(const hypotrack::RenderedHypothesis& hypothesis) const override {
+  double do_cost(const hypotrack::RenderedHypothesis& hypothesis) const override {
     double sum = 0;
     for (const Pull& pull : pulls_) sum += std::pow(residual(pull, hypothesis.state), 2);
     return sum;
   }
 
-  const hypotrack::ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return static_cast<std::int64_t>(pulls_.size()); }
-  void write_residuals(const hypotrack::RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
+  const hypotrack::ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override {
+    return static_cast<std::int64_t>(pulls_.size());
+  }
+  void do_write_residuals(const hypotrack::RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override {
     for (std::size_t i = 0; i < residuals.size(); ++i)
       residuals[i] = static_cast<float>(residual(pulls_[i], hypothesis.state));
   }
 
-  bool has_jacobian() const override { return true; }
-  void write_jacobian(const hypotrack::RenderedHypothesis& hypothesis, std::span<float> residuals,
-                      hypotrack::Jacobian& jacobian) const override {
-    write_residuals(hypothesis, residuals);
+  bool do_has_jacobian() const override { return true; }
+  void do_write_jacobian(const hypotrack::RenderedHypothesis& hypothesis,
+                         std::span<float> residuals, hypotrack::Jacobian& jacobian) const override {
+    do_write_residuals(hypothesis, residuals);
     if (!knows_) return;  // the Jacobian comes filled with zeros
     for (std::size_t i = 0; i < residuals.size(); ++i)
       jacobian(static_cast<Eigen::Index>(i), pulls_[i].parameter) =
           static_cast<float>(pulls_[i].factor);
   }
 
- private:
   /// One residual: a parameter should have the regressor's value.
   struct Pull {
     int parameter;

@@ -95,14 +95,15 @@ class Euroc final : public hypotrack::Source {
     next_ = left_.begin();
   }
 
-  const std::vector<hypotrack::Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override {
+ private:
+  const std::vector<hypotrack::Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override {
     const double seconds = seconds_between(left_.begin()->first, left_.rbegin()->first);
     return seconds > 0 ? static_cast<double>(left_.size() - 1) / seconds : 1;
   }
-  std::optional<int> frame_count() const override { return static_cast<int>(left_.size()); }
+  std::optional<int> do_frame_count() const override { return static_cast<int>(left_.size()); }
 
-  std::optional<hypotrack::Frame> next() override {
+  std::optional<hypotrack::Frame> do_next() override {
     if (next_ == left_.end()) return std::nullopt;
     hypotrack::Frame frame;
     frame.index = index_++;
@@ -129,7 +130,6 @@ class Euroc final : public hypotrack::Source {
     return frame;
   }
 
- private:
   static double seconds_between(std::int64_t from, std::int64_t to) {
     return 1e-9 * static_cast<double>(to - from);
   }

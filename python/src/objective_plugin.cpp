@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "arrays.hpp"
-#include "hypotrack/batch_objective.hpp"
+#include "hypotrack/objective.hpp"
 #include "plugins.hpp"
 
 namespace hypotrack::python {
@@ -62,7 +62,7 @@ ImageUse uses_of(const py::object& reads) {
 }
 
 /// An objective in Python. It needs no rendering if its class says so.
-class PythonObjective final : public Objective, public BatchObjective {
+class PythonObjective final : public Objective {
  public:
   explicit PythonObjective(std::shared_ptr<Held> object) : object_(std::move(object)) {
     in_python([&] {
@@ -76,11 +76,12 @@ class PythonObjective final : public Objective, public BatchObjective {
     });
   }
 
-  bool needs_rendering() const override { return draws_; }
-  ImageUse image_use() const override { return use_; }
-  int most_at_once() const override { return most_; }
+ private:
+  bool do_needs_rendering() const override { return draws_; }
+  ImageUse do_image_use() const override { return use_; }
+  int do_most_at_once() const override { return most_; }
 
-  void prepare(const Observation& observation) override {
+  void do_prepare(const Observation& observation) override {
     if (!prepares_) return;
     // A copy that Python may keep: pictures are shared and counted.
     const auto kept = std::make_shared<Observation>(observation);
@@ -88,14 +89,14 @@ class PythonObjective final : public Objective, public BatchObjective {
     in_python([&] { object_->get().attr("prepare")(kept); });
   }
 
-  double cost(const RenderedHypothesis& hypothesis) const override {
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     double cost = 0;
-    costs({&hypothesis, 1}, {&cost, 1});
+    do_costs({&hypothesis, 1}, {&cost, 1});
     return cost;
   }
 
-  void costs(std::span<const RenderedHypothesis> hypotheses,
-             std::span<double> costs) const override {
+  void do_costs(std::span<const RenderedHypothesis> hypotheses,
+                std::span<double> costs) const override {
     if (hypotheses.empty()) return;
     in_python([&] {
       const py::object answer = object_->get().attr("costs")(copy_of(hypotheses));
@@ -108,7 +109,6 @@ class PythonObjective final : public Objective, public BatchObjective {
     });
   }
 
- private:
   std::shared_ptr<Held> object_;
   bool draws_ = true, prepares_ = false;
   int most_ = 64;

@@ -19,9 +19,10 @@ class PythonOutput final : public Output {
     });
   }
 
-  std::vector<std::string> file_names() const override { return names_; }
+ private:
+  std::vector<std::string> do_file_names() const override { return names_; }
 
-  void begin(OutputContext& run) override {
+  void do_begin(OutputContext& run) override {
     scene_ = std::make_shared<Scene>(run.scene());
     std::vector<std::pair<std::string, std::filesystem::path>> files;
     for (const std::string& name : names_)
@@ -34,19 +35,18 @@ class PythonOutput final : public Output {
     });
   }
 
-  void frame(const Frame& frame, const Solution& solution) override {
+  void do_frame(const Frame& frame, const Solution& solution) override {
     in_python([&] {
       object_->get().attr("frame")(std::make_shared<Frame>(frame), NamedSolution{solution, scene_});
     });
   }
 
-  void finish(bool complete) override {
+  void do_finish(bool complete) override {
     in_python([&] {
       if (py::hasattr(object_->get(), "finish")) object_->get().attr("finish")(complete);
     });
   }
 
- private:
   std::shared_ptr<Held> object_;
   std::shared_ptr<Scene> scene_;
   std::vector<std::string> names_;

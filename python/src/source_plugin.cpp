@@ -27,12 +27,13 @@ class PythonSource final : public Source {
     });
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return rate_; }
-  std::optional<int> frame_count() const override { return count_; }
-  bool live() const override { return live_; }
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return rate_; }
+  std::optional<int> do_frame_count() const override { return count_; }
+  bool do_live() const override { return live_; }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     return in_python([&]() -> std::optional<Frame> {
       if (!frames_) frames_.emplace(py::reinterpret_steal<py::object>(begin()));
       const auto item = py::reinterpret_steal<py::object>(PyIter_Next(frames_->get().ptr()));
@@ -53,7 +54,6 @@ class PythonSource final : public Source {
     });
   }
 
- private:
   PyObject* begin() const {
     PyObject* frames = PyObject_GetIter(object_->get().ptr());
     if (!frames) throw py::error_already_set();

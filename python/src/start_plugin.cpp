@@ -21,10 +21,11 @@ class PythonStart final : public Start {
     });
   }
 
-  bool looks() const override { return looks_; }
-  bool recognizes(std::size_t /*model*/) const override { return recognizes_; }
+ private:
+  bool do_looks() const override { return looks_; }
+  bool do_recognizes(std::size_t /*model*/) const override { return recognizes_; }
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     return in_python([&]() -> std::optional<Eigen::VectorXd> {
       const py::object answer = object_->get().attr("state")(frame_of(context), context.cameras);
       if (!answer.is_none()) return vector_of(py::cast<Doubles>(answer), "its state");
@@ -33,7 +34,7 @@ class PythonStart final : public Start {
     });
   }
 
-  void find(const StartContext& context, std::size_t model, const TakePose& take) override {
+  void do_find(const StartContext& context, std::size_t model, const TakePose& take) override {
     in_python([&] {
       const py::object poses = object_->get().attr("find")(frame_of(context), context.cameras,
                                                            context.scene.items()[model].name);
@@ -45,7 +46,6 @@ class PythonStart final : public Start {
     });
   }
 
- private:
   static py::object frame_of(const StartContext& context) {
     if (!context.frame) return py::none();
     return py::cast(std::make_shared<Frame>(*context.frame));

@@ -21,20 +21,20 @@ class BrokenDevice final : public Objective {
   };
   explicit BrokenDevice(const Params& params) : fault_(params.fault) {}
 
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation& observation) override {
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation& observation) override {
     if (observation.views.size() < 2) throw DataError("expected two views");
   }
-  double cost(const RenderedHypothesis& hypothesis) const override {
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     return SquaredLength().cost(hypothesis.state.data(), static_cast<int>(hypothesis.state.size()));
   }
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return hypotrack::on_device({.another_cost = fault_ == Fault::another_cost,
                                  .never_repeats = fault_ == Fault::never_repeats,
                                  .accepts_everything = fault_ == Fault::accepts_everything});
   }
 
- private:
   Fault fault_;
 };
 

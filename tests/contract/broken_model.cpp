@@ -84,21 +84,22 @@ class Broken final : public Model {
   };
   explicit Broken(const Params& params) : Model(make_data(params.fault)), params_(params) {}
 
-  bool poses_itself() const override { return params_.poses_itself; }
+ private:
+  bool do_poses_itself() const override { return params_.poses_itself; }
 
-  std::vector<ShapeParameter> shape_parameters() const override {
+  std::vector<ShapeParameter> do_shape_parameters() const override {
     std::vector<ShapeParameter> all{{.name = "size", .lower = 0.5, .upper = 2, .deviation = 0.1}};
     if (params_.fault == Fault::impossible_correlations) all[0].correlations = {0.5};
     return all;
   }
-  std::vector<NamedDirection> directions() const override {
+  std::vector<NamedDirection> do_directions() const override {
     std::vector<NamedDirection> all{{"lid", Eigen::Vector3d::UnitZ()},
                                     {"front", Eigen::Vector3d::UnitX()}};
     if (params_.fault == Fault::skewed_directions) all[1].axis = {0.8, 0, 0.6};
     if (params_.fault == Fault::two_directions_of_one_name) all[1].name = "lid";
     return all;
   }
-  ModelData shaped(std::span<const double> values) const override {
+  ModelData do_shaped(std::span<const double> values) const override {
     ModelData other = data();
     if (params_.fault != Fault::dead_shape) scale_model(other, values[0]);
     if (params_.fault == Fault::drops_triangles && values[0] != 1)
@@ -106,8 +107,8 @@ class Broken final : public Model {
     return other;
   }
 
-  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+  void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(
         parameters.data(), static_cast<Eigen::Index>(parameters.size()));
     if (params_.fault == Fault::ignores_position) values[0] = 0;
@@ -124,7 +125,6 @@ class Broken final : public Model {
     for (int i = 0; i < 2; ++i) landmarks.col(i) = bones[i].translation();
   }
 
- private:
   Params params_;
   mutable std::atomic<int> calls_ = 0;
 };

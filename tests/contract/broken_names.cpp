@@ -14,9 +14,11 @@ class BrokenNames final : public Objective {
     }
   };
   explicit BrokenNames(const Params&) {}
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis&) const override { return 0; }
+
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
 };
 
 }  // namespace

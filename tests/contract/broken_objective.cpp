@@ -62,14 +62,15 @@ class Broken final : public Objective, public ResidualTerm {
   };
   explicit Broken(const Params& params) : fault_(params.fault), number_(++objects_) {}
 
-  void prepare(const Observation& observation) override {
+ private:
+  void do_prepare(const Observation& observation) override {
     if (fault_ == Fault::refuses_everything) throw DataError("this is not what I asked for");
     if (fault_ == Fault::throws_a_stranger) throw std::runtime_error("no luck");
     if (observation.views.size() < 2) throw DataError("expected two views");
     ++frames_;
   }
 
-  double cost(const RenderedHypothesis& hypothesis) const override {
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     double sum = 0;
     int covered = 0;
     if (fault_ == Fault::crashes) std::abort();
@@ -86,29 +87,28 @@ class Broken final : public Objective, public ResidualTerm {
     return -sum / count + extra(sum);
   }
 
-  const ResidualTerm* residual_term() const override {
+  const ResidualTerm* do_residual_term() const override {
     return fault_ == Fault::has_no_residuals ? nullptr : this;
   }
-  std::int64_t residual_count() const override { return 2; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
+  std::int64_t do_residual_count() const override { return 2; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override {
     const bool covered = hypothesis.views[0].x1 > hypothesis.views[0].x0;
     residuals[0] = fault_ == Fault::infinite_residual ? 1.0f / static_cast<float>(covered) : 1.0f;
     if (fault_ != Fault::leaves_residuals_out) residuals[1] = second_residual(hypothesis);
     if (fault_ == Fault::writes_too_many_residuals) residuals.data()[2] = 1.0f;
   }
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override {
-    write_residuals(hypothesis, residuals);
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override {
+    do_write_residuals(hypothesis, residuals);
     if (fault_ == Fault::other_residuals_with_the_cost) residuals[0] = 2;
-    return cost(hypothesis);
+    return do_cost(hypothesis);
   }
 
- private:
   float second_residual(const RenderedHypothesis& hypothesis) const {
     constexpr double kLowestCost = -100;
     if (fault_ == Fault::residuals_that_ignore_the_cost) return 1;
-    const double residual = std::sqrt(std::max(0.0, cost(hypothesis) - kLowestCost));
+    const double residual = std::sqrt(std::max(0.0, do_cost(hypothesis) - kLowestCost));
     return static_cast<float>(fault_ == Fault::scales_residuals ? 7 * residual : residual);
   }
   double extra(double sum) const {

@@ -42,36 +42,36 @@ class Broken final : public Output {
   };
   explicit Broken(const Params& params) : fault_(params.fault), number_(++objects_) {}
 
-  std::vector<std::string> file_names() const override {
+ private:
+  std::vector<std::string> do_file_names() const override {
     return {has(Fault::writes_into_a_folder) ? "tables/numbers.txt" : "numbers.txt", "last_#.txt"};
   }
-  void begin(OutputContext& run) override {
+  void do_begin(OutputContext& run) override {
     run_ = &run;
     if (has(Fault::writes_into_a_folder)) return;
     file_.emplace(run.file(has(Fault::writes_what_it_does_not_name) ? "mine.txt" : "numbers.txt"));
     if (has(Fault::never_the_same)) file_->write(std::to_string(number_));
   }
-  void frame(const Frame& frame, const Solution& solution) override {
+  void do_frame(const Frame& frame, const Solution& solution) override {
     last_ = solution.frame;
     if (file_) file_->write(std::to_string(last_) + "\n");
     if (has(Fault::needs_pictures) && run_->fixed_lag() && frame.views.empty())
       throw std::out_of_range("views");
   }
-  std::vector<std::string> columns() const override {
+  std::vector<std::string> do_columns() const override {
     return {has(Fault::names_a_column_badly) ? "last frame" : "last_frame"};
   }
-  void values(const Frame&, const Solution& solution, std::span<double> values) override {
+  void do_values(const Frame&, const Solution& solution, std::span<double> values) override {
     values[0] = solution.frame;
     if (has(Fault::writes_too_many_values)) values.data()[1] = 1;
   }
-  void finish(bool complete) override {
+  void do_finish(bool complete) override {
     if (has(Fault::needs_all_frames) && !complete) throw std::logic_error("there are more frames");
     const auto path = run_->file("last_" + std::to_string(last_) + ".txt");
     if (has(Fault::does_not_ask)) std::ofstream(path.parent_path() / "extra.txt") << "more";
     if (!has(Fault::forgets_a_file)) TextFile(path).write("last");
   }
 
- private:
   bool has(Fault fault) const { return fault_ == fault; }
 
   static inline std::atomic<int> objects_ = 0;

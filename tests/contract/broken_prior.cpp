@@ -32,26 +32,27 @@ class BrokenPrior final : public Objective, public ResidualTerm {
   };
   explicit BrokenPrior(const Params& params) : fault_(params.fault) {}
 
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     std::array<float, 3> r{};
-    write_residuals(hypothesis, r);
+    do_write_residuals(hypothesis, r);
     return r[0] * r[0] + r[1] * r[1] + r[2] * r[2];
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 3; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 3; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override {
     const auto x = hypothesis.state;
     residuals[0] = static_cast<float>(std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) - 0.4);
     residuals[1] = static_cast<float>(1 - 2 * (x[4] * x[4] + x[6] * x[6]));
     residuals[2] = static_cast<float>(std::fmax(0, x[8] - x[9]));
   }
-  bool has_jacobian() const override { return fault_ != Fault::has_no_jacobian; }
-  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                      Jacobian& jacobian) const override {
-    write_residuals(hypothesis, residuals);
+  bool do_has_jacobian() const override { return fault_ != Fault::has_no_jacobian; }
+  void do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                         Jacobian& jacobian) const override {
+    do_write_residuals(hypothesis, residuals);
     const auto x = hypothesis.state;
     const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     for (int k = 0; k < 3; ++k) jacobian(0, k) = static_cast<float>(x[k] / length);
@@ -64,7 +65,6 @@ class BrokenPrior final : public Objective, public ResidualTerm {
     if (fault_ == Fault::other_residuals) residuals[1] += 1;
   }
 
- private:
   Fault fault_;
 };
 

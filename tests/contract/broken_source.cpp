@@ -65,14 +65,15 @@ class Broken final : public Source {
     if (!has(Fault::no_cameras)) cameras_ = {camera, camera};
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override {
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override {
     if (has(Fault::endless_frame_rate)) return std::numeric_limits<double>::infinity();
     return has(Fault::no_frame_rate) ? 0 : 25;
   }
-  std::optional<int> frame_count() const override { return params_.frames; }
+  std::optional<int> do_frame_count() const override { return params_.frames; }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     const int extra = has(Fault::ends_late) ? 1 : 0;
     if (next_ >= params_.frames + extra || has(Fault::gives_nothing)) return std::nullopt;
     Frame frame;
@@ -100,7 +101,6 @@ class Broken final : public Source {
     return frame;
   }
 
- private:
   bool has(Fault fault) const { return params_.fault == fault; }
 
   static inline std::atomic<int> objects_ = 0;

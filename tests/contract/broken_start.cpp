@@ -41,7 +41,8 @@ class Broken final : public Start {
   };
   explicit Broken(const Params& params) : fault_(params.fault), number_(++objects_) {}
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+ private:
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     if (has(Fault::gives_nothing)) return std::nullopt;
     if (has(Fault::throws_a_stranger) && context.frame && !context.frame->truth)
       throw std::out_of_range("truth");
@@ -56,7 +57,6 @@ class Broken final : public Start {
     return state;
   }
 
- private:
   bool has(Fault fault) const { return fault_ == fault; }
 
   static inline std::atomic<int> objects_ = 0;

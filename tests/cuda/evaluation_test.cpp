@@ -214,8 +214,8 @@ TEST(CudaCost, AddsTermsUpWithTheirWeights) {
 TEST(CudaCost, SaysWhichTermIsNotForTheGpu) {
   SKIP_WITHOUT_DEVICE();
   class OnlyCpu final : public Objective {
-    void prepare(const Observation&) override {}
-    double cost(const RenderedHypothesis&) const override { return 0; }
+    void do_prepare(const Observation&) override {}
+    double do_cost(const RenderedHypothesis&) const override { return 0; }
   };
   const Scene scene = test::hand_scene();
   const std::string message = test::message_of<DeviceError>([&] {

@@ -28,34 +28,37 @@ double sum_covered(const RenderedHypothesis& hypothesis, const Pixel& pixel) {
 
 class CoveredProbe final : public Objective {
  public:
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+ private:
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     return sum_covered(hypothesis,
                        [](int x, int y, float w) { return 1 + x * 0.002 + y * 0.003 + w * 0.25; });
   }
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return covered_probe_on_device();
   }
 };
 
 class MarkProbe final : public Objective {
  public:
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+ private:
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     return sum_covered(hypothesis, [](int x, int y, float w) {
       const PixelMark mark = mark_of_pixel(x, y, w);
       return mark.first + kSecondMark * mark.second;
     });
   }
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return mark_probe_on_device();
   }
 };
 
 class EdgeProbe final : public Objective {
  public:
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+ private:
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     int sum = 0;
     for (const DepthTile& tile : hypothesis.views) {
       for (int y = 0; y < tile.height; ++y) {
@@ -66,7 +69,7 @@ class EdgeProbe final : public Objective {
     }
     return sum;
   }
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return edge_probe_on_device();
   }
 };
@@ -75,19 +78,19 @@ class SeenProbe final : public Objective {
  public:
   explicit SeenProbe(bool uncovered) : uncovered_(uncovered) {}
 
-  void prepare(const Observation& observation) override {
+ private:
+  void do_prepare(const Observation& observation) override {
     rectified_ = observation.rectified;
     maps_[0] = stereo_map(observation, 0, 1);
     maps_[1] = stereo_map(observation, 1, 0);
   }
-  double cost(const RenderedHypothesis& h) const override {
+  double do_cost(const RenderedHypothesis& h) const override {
     return one_way(h.views[0], h.views[1], maps_[0]) + one_way(h.views[1], h.views[0], maps_[1]);
   }
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return seen_probe_on_device(uncovered_);
   }
 
- private:
   double one_way(const DepthTile& here, const DepthTile& there, const StereoMap& map) const {
     double sum = 0;
     for (int y = 0; y < here.height; ++y) {

@@ -165,17 +165,17 @@ TEST_F(DeviceResiduals, AreThereWithoutBeingAnnounced) {
 TEST_F(DeviceResiduals, OfATermThatHasThemOnTheCpuOnlyAreRefusedByItsName) {
   class CpuResiduals final : public Objective, public ResidualTerm {
    public:
-    bool needs_rendering() const override { return probe_->needs_rendering(); }
-    void prepare(const Observation&) override {}
-    double cost(const RenderedHypothesis&) const override { return 0; }
-    std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+   private:
+    bool do_needs_rendering() const override { return probe_->needs_rendering(); }
+    void do_prepare(const Observation&) override {}
+    double do_cost(const RenderedHypothesis&) const override { return 0; }
+    std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
       return probe_->on_device();
     }
-    const ResidualTerm* residual_term() const override { return this; }
-    std::int64_t residual_count() const override { return 0; }
-    void write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
+    const ResidualTerm* do_residual_term() const override { return this; }
+    std::int64_t do_residual_count() const override { return 0; }
+    void do_write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
 
-   private:
     std::shared_ptr<Objective> probe_ = test::covered_probe();
   };
   const Scene scene = test::hand_scene();

@@ -16,7 +16,9 @@ namespace hypotrack::fuzz {
 class StickHand final : public Model {
  public:
   using Model::Model;
-  std::vector<NamedDirection> directions() const override { return palm_directions(*this); }
+
+ private:
+  std::vector<NamedDirection> do_directions() const override { return palm_directions(*this); }
 };
 
 /// Returns a scene of `hand`, which is made of sticks, and `box`.

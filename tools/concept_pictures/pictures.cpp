@@ -98,9 +98,10 @@ class Pictures : public Objective {
   explicit Pictures(const Params& params) : params_(params), scored_(stereo_color::Params{}) {}
   ~Pictures() override = default;
 
-  ImageUse image_use() const override { return scored_.image_use(); }
+ private:
+  ImageUse do_image_use() const override { return scored_.image_use(); }
 
-  void prepare(const Observation& observation) override {
+  void do_prepare(const Observation& observation) override {
     if (seen_.frame == params_.frame && observation.frame != seen_.frame && !best_.empty()) write();
     seen_ = observation;
     for (TileView& view : seen_.views) view.color = view.color.clone();
@@ -110,13 +111,12 @@ class Pictures : public Objective {
     scored_.prepare(observation);
   }
 
-  double cost(const RenderedHypothesis& hypothesis) const override {
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     const double cost = scored_.cost(hypothesis);
     if (seen_.frame == params_.frame) record(hypothesis, cost);
     return cost;
   }
 
- private:
   void record(const RenderedHypothesis& hypothesis, double cost) const {
     if (generations_.empty() || evaluations_ == params_.generation) {
       generations_.emplace_back();

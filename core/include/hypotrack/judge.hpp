@@ -7,11 +7,11 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/plugin_object.hpp"
 
 namespace hypotrack {
 
@@ -123,12 +123,10 @@ struct FittedJudge {
 
 /// Judges from measures of the pictures whether the pose of a model is right. A plugin's Params
 /// derive from JudgeThresholds, with defaults that suit the judge.
-class HYPOTRACK_API Judge {
+class HYPOTRACK_API Judge : public PluginObject {
  public:
   explicit Judge(const JudgeThresholds& thresholds = {}) : thresholds_(thresholds) {}
-  virtual ~Judge();
-  Judge(const Judge&) = delete;
-  Judge& operator=(const Judge&) = delete;
+  ~Judge() override;
 
   /// Returns the logarithm of the odds that the pose is right. Any thread may call it. Throws
   /// PluginError, which names the judge, if that is NaN.
@@ -137,8 +135,6 @@ class HYPOTRACK_API Judge {
   /// Fits a judge of this kind to poses. Throws PluginError if it has nothing to fit, and DataError
   /// if the poses do not suffice.
   FittedJudge fit(const JudgeFit& to) const;
-  /// Sets how messages name the judge: its place in the scene, kind, name and library.
-  void set_label(std::string label) { label_ = std::move(label); }
 
  protected:
   /// Computes the logarithm of the odds p / (1 - p) of measures that are `known`: 0 for p = 0.5,
@@ -149,7 +145,6 @@ class HYPOTRACK_API Judge {
 
  private:
   JudgeThresholds thresholds_;
-  std::string label_;
 };
 
 /// Returns the probability of log odds.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
+#include "hypotrack/plugin_object.hpp"
 
 namespace hypotrack {
 
@@ -120,39 +121,51 @@ HYPOTRACK_API void validate(const ModelData& data, std::string_view where);
 HYPOTRACK_API std::vector<std::vector<int>> parameter_groups(const ModelData& data);
 
 /// A model that can be tracked: data that core's kinematics and skinning pose on CPU and GPU.
-class HYPOTRACK_API Model {
+class HYPOTRACK_API Model : public PluginObject {
  public:
   /// Throws DataError as validate() does.
   explicit Model(ModelData data);
-  virtual ~Model();
-  Model(const Model&) = delete;
-  Model& operator=(const Model&) = delete;
+  ~Model() override;
 
   const ModelData& data() const { return data_; }
   int dimension() const { return static_cast<int>(data_.parameters.size()); }
 
   /// Returns true for a model that a skeleton cannot express. Then `pose` replaces the skinning:
-  /// hypotheses are posed on the CPU, one per call, from several threads at once.
-  virtual bool poses_itself() const { return false; }
+  /// hypotheses are posed on the CPU, one per call, from several threads at once. The answer never
+  /// changes.
+  bool poses_itself() const;
   /// Computes the world vertices (3xV) and landmarks (3xL), metres, for one parameter vector.
-  virtual void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-                    Eigen::Matrix3Xd& landmarks) const;
+  /// Throws PluginError, naming the model, if their number is another than in data(), or one is not
+  /// finite.
+  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+            Eigen::Matrix3Xd& landmarks) const;
 
   /// Returns the shape parameters of this kind of model; empty if there is only one individual. A
   /// plugin reads their values with ShapeSettings (shape.hpp), so that scenes can use the results
-  /// of `hypotrack fit-shape`.
-  virtual std::vector<ShapeParameter> shape_parameters() const { return {}; }
+  /// of `hypotrack fit-shape`. Throws PluginError if shape_correlations() refuses them.
+  std::vector<ShapeParameter> shape_parameters() const;
   /// Returns data() for other values of shape_parameters(), in their order and within their bounds.
   /// Positions and lengths change. Bones, parameters, landmarks, triangles and weights stay. Throws
   /// Error if the model has no shape parameters or the number of values differs.
-  virtual ModelData shaped(std::span<const double> values) const;
+  ModelData shaped(std::span<const double> values) const;
 
   /// Returns directions that people can name, perpendicular to each other, under different names.
-  /// A scene turns the model by two of them; empty: by angles only.
-  virtual std::vector<NamedDirection> directions() const { return {}; }
+  /// A scene turns the model by two of them; empty: by angles only. Throws PluginError if they are
+  /// not so.
+  std::vector<NamedDirection> directions() const;
   /// Returns names of landmarks that people find in pictures, clearest first. `hypotrack
   /// start` asks for these before the others.
-  virtual std::vector<std::string> clear_landmarks() const { return {}; }
+  std::vector<std::string> clear_landmarks() const;
+
+ protected:
+  // What plugins write: each function as the public one of its name says.
+  virtual bool do_poses_itself() const { return false; }
+  virtual void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+                       Eigen::Matrix3Xd& landmarks) const;
+  virtual std::vector<ShapeParameter> do_shape_parameters() const { return {}; }
+  virtual ModelData do_shaped(std::span<const double> values) const;
+  virtual std::vector<NamedDirection> do_directions() const { return {}; }
+  virtual std::vector<std::string> do_clear_landmarks() const { return {}; }
 
  private:
   ModelData data_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -11,12 +12,15 @@
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/observation.hpp"
+#include "hypotrack/plugin_object.hpp"
 
 namespace hypotrack {
 
 namespace cuda {
 class DeviceObjective;
 }
+class Objective;
+struct TermTimes;
 
 /// The depth of one hypothesis in one view's tile.
 struct DepthTile {
@@ -41,6 +45,8 @@ using Jacobian = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 /// The residuals of an objective, for least-squares optimizers. Least squares with analytic
 /// Jacobians takes write_jacobian() where a term has it, otherwise write_slopes(), otherwise
 /// differences of residuals. Terms of all three kinds can be in one scene.
+///
+/// Functions that write throw PluginError, naming the objective, if a number is not finite.
 class HYPOTRACK_API ResidualTerm {
  public:
   ResidualTerm() = default;
@@ -48,8 +54,9 @@ class HYPOTRACK_API ResidualTerm {
   ResidualTerm(const ResidualTerm&) = delete;
   ResidualTerm& operator=(const ResidualTerm&) = delete;
 
-  /// Returns the number of residuals per hypothesis of the prepared frame; may be 0.
-  virtual std::int64_t residual_count() const = 0;
+  /// Returns the number of residuals per hypothesis of the prepared frame; may be 0. Throws
+  /// PluginError if it is negative, or more than memory can hold.
+  std::int64_t residual_count() const;
 
   /// Writes the residuals of a hypothesis, `residual_count()` finite numbers. Each entry belongs to
   /// the same pixel (joint, pair of spheres) for every hypothesis, so that residuals of two
@@ -57,36 +64,53 @@ class HYPOTRACK_API ResidualTerm {
   /// The sum of squares should be the cost plus a constant of the frame. If the cost is not a sum
   /// of squares, this sum must rise and fall with the cost, by about as much. Called from several
   /// threads at once; equal inputs give equal results.
-  virtual void write_residuals(const RenderedHypothesis& hypothesis,
-                               std::span<float> residuals) const = 0;
+  void write_residuals(const RenderedHypothesis& hypothesis, std::span<float> residuals) const;
 
   /// Returns true if every residual belongs to a pixel, so that pixel_views() and write_slopes()
   /// work. The answer never changes.
-  virtual bool has_slopes() const { return false; }
+  bool has_slopes() const { return do_has_slopes(); }
 
   /// Returns the views whose pixels the residuals belong to, in the order of the residuals. Each
   /// view has one residual per pixel of its tile, rows without gaps. Requires has_slopes() and a
   /// prepared frame.
-  virtual std::span<const int> pixel_views() const;
+  std::span<const int> pixel_views() const;
 
   /// Writes the residuals of view pixel_views()[i] and their slopes d r / d(1/z), in metres, with
   /// respect to the surface drawn at the pixel. The slope is 0 where nothing is drawn.
   /// The optimizer adds how surfaces and silhouettes move to get a Jacobian. Take differences over
   /// half a pixel of the image, not derivatives at a point, because pixels are noisy. Called from
   /// several threads at once.
-  virtual void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
-                            std::span<float> residuals, std::span<float> slopes) const;
+  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
+                    std::span<float> slopes) const;
 
   /// Returns true if write_jacobian() works. The answer never changes.
-  virtual bool has_jacobian() const { return false; }
+  bool has_jacobian() const { return do_has_jacobian(); }
 
   /// Writes the residuals of a hypothesis and their derivatives, d residuals[i] / d state[k] at
-  /// (i, k). `jacobian` comes in its final size and filled with zeros.
+  /// (i, k). `jacobian` comes in its final size and filled with zeros; another size afterwards is a
+  /// PluginError.
   /// Along a unit quaternion, only derivatives within the unit sphere matter: whether the residual
   /// normalises it does not. Where a residual has a kink, any slope between those of its sides
   /// will do. Called from several threads at once.
-  virtual void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                              Jacobian& jacobian) const;
+  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                      Jacobian& jacobian) const;
+
+ protected:
+  // What plugins write: each function as the public one of its name says.
+  virtual std::int64_t do_residual_count() const = 0;
+  virtual void do_write_residuals(const RenderedHypothesis& hypothesis,
+                                  std::span<float> residuals) const = 0;
+  virtual bool do_has_slopes() const { return false; }
+  virtual std::span<const int> do_pixel_views() const;
+  virtual void do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                               std::span<float> residuals, std::span<float> slopes) const;
+  virtual bool do_has_jacobian() const { return false; }
+  virtual void do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                                 Jacobian& jacobian) const;
+
+ private:
+  friend class Objective;
+  mutable std::atomic<const Objective*> owner_ = nullptr;  ///< once residual_term() was called
 };
 
 /// A number for every pixel of one view's tile, for pictures that explain a cost.
@@ -108,50 +132,86 @@ struct ImageUse {
 };
 
 /// A term of the cost: how badly a hypothesis explains a frame. A scene adds weighted terms.
-class HYPOTRACK_API Objective {
+class HYPOTRACK_API Objective : public PluginObject {
  public:
-  Objective() = default;
-  virtual ~Objective();
-  Objective(const Objective&) = delete;
-  Objective& operator=(const Objective&) = delete;
+  Objective();
+  ~Objective() override;
 
   /// Returns false for a term that needs no rendering. One that reads pictures even so overrides
-  /// image_use(); others are taken for terms of the state alone (joint limits, priors).
-  virtual bool needs_rendering() const { return true; }
+  /// do_image_use(); others are taken for terms of the state alone (joint limits, priors).
+  bool needs_rendering() const { return do_needs_rendering(); }
 
   /// Returns the images that `prepare` reads. An image that no objective of the scene reads may be
   /// missing from the observation: it is then neither resampled nor uploaded to a GPU.
-  virtual ImageUse image_use() const { return {}; }
+  ImageUse image_use() const { return do_image_use(); }
 
   /// Prepares features of a frame that make scoring fast. The observation outlives every `cost`
   /// until the next `prepare`. Throws DataError if the observation does not suit (one view for a
   /// stereo objective). Several objectives are prepared at the same time.
-  virtual void prepare(const Observation& observation) = 0;
+  void prepare(const Observation& observation);
 
-  /// Returns the cost of a hypothesis: lower is better, +infinity is infeasible, NaN is a bug.
-  /// Called from several threads at once; equal inputs give equal results.
-  virtual double cost(const RenderedHypothesis& hypothesis) const = 0;
+  /// Returns the cost of a hypothesis: lower is better, +infinity is infeasible. Called from
+  /// several threads at once; equal inputs give equal results. Throws PluginError, naming the
+  /// objective, if the cost is NaN or -infinity, as costs() and cost_and_residuals() do.
+  double cost(const RenderedHypothesis& hypothesis) const;
 
-  /// Returns the objective's residuals, or null if it has none. Whether it is null never changes.
+  /// Returns the most hypotheses of one call of costs(). 0: it scores one at a time. Otherwise the
+  /// scene is evaluated on the CPU, which draws a block before each call. The answer never changes.
+  int most_at_once() const { return do_most_at_once(); }
+
+  /// Computes the costs of many drawn hypotheses, as cost() does. Called from one thread at a time.
+  void costs(std::span<const RenderedHypothesis> hypotheses, std::span<double> costs) const;
+
+  /// Returns the objective's residuals, or null if it has none. The answer never changes.
   /// The objective owns the result (it may derive from ResidualTerm and return itself).
-  virtual const ResidualTerm* residual_term() const;
+  const ResidualTerm* residual_term() const;
 
   /// Returns the value of cost() (up to rounding) and writes the residuals of residual_term().
-  /// Requires a residual_term(). Override it if one pass over the pixels gives both.
-  virtual double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                    std::span<float> residuals) const;
+  /// Requires a residual_term(). Override it if one pass over the pixels gives both. Throws
+  /// PluginError if a residual is not finite although the cost is.
+  double cost_and_residuals(const RenderedHypothesis& hypothesis, std::span<float> residuals) const;
+
+  /// Returns the state from which to search the prepared frame first, in place of
+  /// Observation::start. Only the models that the objective knows differ from it. Empty: no better
+  /// one is known. Throws PluginError on another size or numbers that are not finite.
+  Eigen::VectorXd refined_start() const;
 
   /// Returns true if maps() gives some. `prepare` may then be called again with the same frame, and
   /// must not learn from it.
-  virtual bool has_maps() const { return false; }
+  bool has_maps() const { return do_has_maps(); }
 
   /// Returns what cost() reads and finds at every pixel, for a hypothesis of the prepared frame.
-  virtual std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const;
+  std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const;
 
   /// Returns the GPU implementation (hypotrack/cuda/device_objective.hpp), or null without one or
   /// without CUDA. With null, a term that needs rendering keeps the whole scene on the CPU;
   /// another is evaluated there beside the GPU. The objective outlives the result.
-  virtual std::unique_ptr<cuda::DeviceObjective> on_device() const;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const;
+
+  /// Returns how long the objective has worked so far; grows.
+  std::shared_ptr<const TermTimes> times() const;
+
+ protected:
+  // What plugins write: each function as the public one of its name says.
+  virtual bool do_needs_rendering() const { return true; }
+  virtual ImageUse do_image_use() const { return {}; }
+  virtual void do_prepare(const Observation& observation) = 0;
+  virtual double do_cost(const RenderedHypothesis& hypothesis) const = 0;
+  virtual int do_most_at_once() const { return 0; }
+  virtual void do_costs(std::span<const RenderedHypothesis> hypotheses,
+                        std::span<double> costs) const;
+  virtual const ResidualTerm* do_residual_term() const { return nullptr; }
+  virtual double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                       std::span<float> residuals) const;
+  virtual Eigen::VectorXd do_refined_start() const { return {}; }
+  virtual bool do_has_maps() const { return false; }
+  virtual std::vector<PixelMap> do_maps(const RenderedHypothesis& hypothesis) const;
+  virtual std::unique_ptr<cuda::DeviceObjective> do_on_device() const;
+
+ private:
+  friend class ResidualTerm;
+  std::shared_ptr<TermTimes> times_;
+  Eigen::Index dimension_ = 0;  ///< of the prepared frame's state
 };
 
 }  // namespace hypotrack

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
+#include "hypotrack/plugin_object.hpp"
 
 namespace hypotrack {
 
@@ -206,12 +207,10 @@ HYPOTRACK_API void check_requirements(const Requirements& requirements,
 
 /// Searches for the point of lowest cost. Equal input, seed and machine give the equal answer,
 /// unless the budget is in seconds.
-class HYPOTRACK_API Optimizer {
+class HYPOTRACK_API Optimizer : public PluginObject {
  public:
   Optimizer() = default;
-  virtual ~Optimizer();
-  Optimizer(const Optimizer&) = delete;
-  Optimizer& operator=(const Optimizer&) = delete;
+  ~Optimizer() override;
 
   /// Returns what the optimizer uses besides plain costs; constant. An optimizer that wraps others
   /// merges theirs.

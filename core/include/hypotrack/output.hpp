@@ -8,6 +8,7 @@
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
+#include "hypotrack/plugin_object.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/search_record.hpp"
@@ -50,48 +51,58 @@ class HYPOTRACK_API OutputContext {
 /// they are.
 /// Calls come one after the other. An output that takes the renderer in begin() gets its frames in
 /// another thread, while the next are tracked; wants_search() may then come during another call.
-class HYPOTRACK_API Output {
+class HYPOTRACK_API Output : public PluginObject {
  public:
   Output() = default;
-  virtual ~Output();
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
+  ~Output() override;
 
   /// Returns the names of all files that a run may write, without folders. One # in a name stands
   /// for any number: `worst_#.jpg`. Files of these names from an earlier run are replaced or
   /// removed.
-  virtual std::vector<std::string> file_names() const = 0;
+  std::vector<std::string> file_names() const;
 
   /// Is called before the first frame. `run` lives until the output is destroyed. Throws
   /// OutputError.
-  virtual void begin(OutputContext& run) = 0;
+  void begin(OutputContext& run);
 
   /// Returns true to receive how the search of this frame goes. Recording costs time and memory.
-  virtual bool wants_search(const Frame& /*frame*/) const { return false; }
+  bool wants_search(const Frame& frame) const;
 
   /// Receives how a frame was searched, with its solution before fixed-lag smoothing. Is called for
   /// frames that were wanted and have views.
-  virtual void search(const Frame& /*frame*/, const Solution& /*solution*/,
-                      const SearchRecord& /*record*/) {}
+  void search(const Frame& frame, const Solution& solution, const SearchRecord& record);
 
   /// Receives every frame, with its pictures, and its solution before fixed-lag smoothing.
-  virtual void online(const Frame& /*frame*/, const Solution& /*solution*/) {}
+  void online(const Frame& frame, const Solution& solution);
 
   /// Receives every frame and its final solution, in order. With fixed-lag smoothing it comes some
   /// frames later and without pictures. A missing frame has no views either.
-  virtual void frame(const Frame& frame, const Solution& solution) = 0;
+  void frame(const Frame& frame, const Solution& solution);
 
   /// Returns the names of columns that this output adds to track.csv: letters, digits and _, none
   /// of the table's own names. The answer never changes. An output with columns must not take the
   /// renderer in begin().
-  virtual std::vector<std::string> columns() const { return {}; }
+  std::vector<std::string> columns() const;
   /// Writes a number for each of columns(); they are NaN before, `nan` in the table. Is called
   /// for every frame before frame(), with the same arguments.
-  virtual void values(const Frame& /*frame*/, const Solution& /*solution*/,
-                      std::span<double> /*values*/) {}
+  void values(const Frame& frame, const Solution& solution, std::span<double> values);
 
   /// Completes the files. `complete` is false if the run was interrupted or an error ended it.
-  virtual void finish(bool /*complete*/) {}
+  void finish(bool complete);
+
+ protected:
+  // What plugins write: each function as the public one of its name says.
+  virtual std::vector<std::string> do_file_names() const = 0;
+  virtual void do_begin(OutputContext& run) = 0;
+  virtual bool do_wants_search(const Frame& /*frame*/) const { return false; }
+  virtual void do_search(const Frame& /*frame*/, const Solution& /*solution*/,
+                         const SearchRecord& /*record*/) {}
+  virtual void do_online(const Frame& /*frame*/, const Solution& /*solution*/) {}
+  virtual void do_frame(const Frame& frame, const Solution& solution) = 0;
+  virtual std::vector<std::string> do_columns() const { return {}; }
+  virtual void do_values(const Frame& /*frame*/, const Solution& /*solution*/,
+                         std::span<double> /*values*/) {}
+  virtual void do_finish(bool /*complete*/) {}
 };
 
 }  // namespace hypotrack

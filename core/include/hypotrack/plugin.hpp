@@ -162,7 +162,7 @@ ProgramPlugin program_plugin(std::string name,
           }};
 }
 
-inline constexpr std::uint32_t kAbiVersion = 24;
+inline constexpr std::uint32_t kAbiVersion = 25;
 
 /// The C interface of a plugin library. The loader compares magic, size, version and tag before it
 /// reads anything else. So the struct must stay plain C and may only grow at the end.

@@ -10,6 +10,7 @@
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
+#include "hypotrack/plugin_object.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
@@ -52,35 +53,41 @@ struct StartContext {
 
 /// Says where a search begins. Some starts know a state of the scene before they see pictures.
 /// Others look for each model in the pictures, in the first frames and after every loss.
-class HYPOTRACK_API Start {
+class HYPOTRACK_API Start : public PluginObject {
  public:
   Start() = default;
-  virtual ~Start();
-  Start(const Start&) = delete;
-  Start& operator=(const Start&) = delete;
+  ~Start() override;
 
   /// Returns whether this start looks for models in pictures: find() is called then, state() never.
-  virtual bool looks() const { return false; }
+  bool looks() const { return do_looks(); }
 
   /// Returns whether find() sees a model (its index) in nearly all pictures that show it. If it
   /// then proposes no pose, others are doubted. A pose near one that it proposes is followed even
   /// where the pictures deny it.
-  virtual bool recognizes(std::size_t model) const;
+  bool recognizes(std::size_t model) const { return do_recognizes(model); }
 
   /// Returns a state of the scene with unit quaternions and angles within their bounds. Returns
   /// nothing if it needs a frame and there is none yet; with a frame it returns a state or throws.
   /// Equal contexts give equal states. Throws ConfigError or DataError, which say where it looked
   /// and what it did not find.
-  virtual std::optional<Eigen::VectorXd> state(const StartContext& context);
+  std::optional<Eigen::VectorXd> state(const StartContext& context);
 
   /// Proposes poses of one model of the scene (its index) in a frame, likeliest first, with unit
   /// quaternions and angles within their bounds. Proposes none if it sees none. The tracker refines
   /// them and chooses. Equal calls propose equal poses. Throws ConfigError or DataError.
-  virtual void find(const StartContext& context, std::size_t model, const TakePose& take);
+  void find(const StartContext& context, std::size_t model, const TakePose& take);
 
   /// Returns how large a model (its index) looks in a frame, as a factor on its size. Returns
   /// nothing if this start does not see it well.
-  virtual std::optional<double> size(const StartContext& context, std::size_t model);
+  std::optional<double> size(const StartContext& context, std::size_t model);
+
+ protected:
+  // What plugins write: each function as the public one of its name says.
+  virtual bool do_looks() const { return false; }
+  virtual bool do_recognizes(std::size_t model) const;
+  virtual std::optional<Eigen::VectorXd> do_state(const StartContext& context);
+  virtual void do_find(const StartContext& context, std::size_t model, const TakePose& take);
+  virtual std::optional<double> do_size(const StartContext& context, std::size_t model);
 };
 
 }  // namespace hypotrack

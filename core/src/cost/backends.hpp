@@ -16,7 +16,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
 std::unique_ptr<Cost> make_host_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
                                      const EvaluateSettings& settings, std::string why_here = {});
 
-/// Throws Error that says what a term did wrong for a hypothesis (`returned NaN`).
+/// Throws Error that says what a term did wrong for a hypothesis (`adds an infinity to its
+/// opposite`).
 [[noreturn]] void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what);
 
 /// Throws Error unless there is room for rows x columns residuals.

@@ -10,9 +10,8 @@ namespace hypotrack::internal {
 
 BatchedTerms::BatchedTerms(const std::vector<ObjectiveTerm>& terms) : terms_(terms) {
   for (const ObjectiveTerm& term : terms) {
-    const auto* batched = dynamic_cast<const BatchObjective*>(term.objective.get());
-    const int most = batched && term.weight != 0 ? batched->most_at_once() : 0;
-    batched_.push_back(most > 0 ? batched : nullptr);
+    const int most = term.weight != 0 ? term.objective->most_at_once() : 0;
+    batched_.push_back(most > 0);
     if (most > 0) most_ = most_ == 0 ? most : std::min<Eigen::Index>(most_, most);
   }
 }
@@ -47,11 +46,9 @@ void BatchedTerms::add(Eigen::Ref<Eigen::VectorXd> costs) const {
   for (std::size_t t = 0; t < terms_.size(); ++t) {
     if (!batched_[t]) continue;
     const ProfiledPart part(terms_[t].name);
-    batched_[t]->costs(terms_[t].objective->needs_rendering() ? drawn : posed, own);
+    terms_[t].objective->costs(terms_[t].objective->needs_rendering() ? drawn : posed, own);
     for (Eigen::Index i = 0; i < count_; ++i) {
-      const double cost = own[static_cast<std::size_t>(i)];
-      costs[i] += terms_[t].weight * cost;
-      if (std::isnan(cost)) refuse_cost(terms_[t], i, "returned NaN");
+      costs[i] += terms_[t].weight * own[static_cast<std::size_t>(i)];
       if (std::isnan(costs[i])) refuse_cost(terms_[t], i, "adds an infinity to its opposite");
     }
   }

@@ -5,18 +5,18 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/batch_objective.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// The terms that score many hypotheses in one call (BatchObjective), with the drawings of a block.
+/// The terms that score many hypotheses in one call (Objective::costs()), with the drawings of a
+/// block.
 class BatchedTerms {
  public:
   explicit BatchedTerms(const std::vector<ObjectiveTerm>& terms);
 
   bool any() const { return most_ > 0; }
-  bool has(std::size_t term) const { return batched_[term] != nullptr; }
+  bool has(std::size_t term) const { return batched_[term]; }
   /// Returns the most hypotheses of a block.
   Eigen::Index most() const { return most_; }
 
@@ -24,7 +24,8 @@ class BatchedTerms {
   void begin(Eigen::Index count);
   /// Copies a hypothesis of the block. Several threads may copy different ones.
   void keep(Eigen::Index index, const RenderedHypothesis& hypothesis);
-  /// Adds the weighted costs of the block to `costs`. Throws Error, naming the term, if one is NaN.
+  /// Adds the weighted costs of the block to `costs`. Throws Error, naming the term, if a sum is
+  /// NaN.
   void add(Eigen::Ref<Eigen::VectorXd> costs) const;
 
  private:
@@ -35,7 +36,7 @@ class BatchedTerms {
   };
 
   const std::vector<ObjectiveTerm>& terms_;
-  std::vector<const BatchObjective*> batched_;  ///< one per term; null: not of this kind
+  std::vector<bool> batched_;  ///< by term
   Eigen::Index most_ = 0;
   std::vector<Drawing> drawings_;
   Eigen::Index count_ = 0;

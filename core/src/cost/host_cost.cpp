@@ -252,9 +252,7 @@ class HostCost final : public Cost, public StateResiduals {
     for (std::size_t t = 0; t < costs.size(); ++t) {
       const ObjectiveTerm& term = terms()[t];
       if (term.weight == 0) continue;
-      const double cost = costs[t];
-      sum += term.weight * cost;
-      if (std::isnan(cost)) refuse_cost(term, index, "returned NaN");
+      sum += term.weight * costs[t];
       if (std::isnan(sum)) refuse_cost(term, index, "adds an infinity to its opposite");
     }
     return sum;

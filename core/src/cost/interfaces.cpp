@@ -1,41 +1,13 @@
 // Out-of-line destructors anchor vtables in libhypotrack.so, so that dynamic casts work across
 // plugin libraries.
-#include "hypotrack/batch_objective.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
-#include "hypotrack/refines_start.hpp"
 #include "hypotrack/search.hpp"
-#include "hypotrack/source.hpp"
 
 namespace hypotrack {
 
-ResidualTerm::~ResidualTerm() = default;
-std::span<const int> ResidualTerm::pixel_views() const {
-  throw Error("this objective has no slopes of residuals");
-}
-
-void ResidualTerm::write_slopes(const RenderedHypothesis&, std::size_t, std::span<float>,
-                                std::span<float>) const {
-  throw Error("this objective has no slopes of residuals");
-}
-
-void ResidualTerm::write_jacobian(const RenderedHypothesis&, std::span<float>, Jacobian&) const {
-  throw Error("this objective has no Jacobian of its residuals");
-}
-RefinesStart::~RefinesStart() = default;
-BatchObjective::~BatchObjective() = default;
-Objective::~Objective() = default;
-const ResidualTerm* Objective::residual_term() const { return nullptr; }
-double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                     std::span<float> residuals) const {
-  residual_term()->write_residuals(hypothesis, residuals);
-  return cost(hypothesis);
-}
-std::vector<PixelMap> Objective::maps(const RenderedHypothesis&) const { return {}; }
-std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
 void cuda::DeviceObjective::enqueue(const SceneLayout&, const BatchLayout&, Stream) {
   throw Error("this objective scores hypotheses on the GPU that are drawn before");
@@ -79,6 +51,5 @@ std::vector<OptimizerResult> Optimizer::minimize_each(CostFunction& cost,
   }
   return out;
 }
-Source::~Source() = default;
 
 }  // namespace hypotrack

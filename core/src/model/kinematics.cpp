@@ -109,18 +109,6 @@ Eigen::Matrix3Xd place_landmarks(const ModelData& data,
 }  // namespace hypotrack::internal
 
 namespace hypotrack {
-namespace {
-
-/// Throws PluginError unless a model that poses itself returned as many points as its data has.
-void require_count(Eigen::Index found, Eigen::Index expected, const char* what) {
-  if (found == expected) return;
-  throw PluginError(fmt::format(
-      "a model that poses itself returned {} {}, expected the {} of its data; this is a bug in the "
-      "model",
-      found, what, expected));
-}
-
-}  // namespace
 
 Eigen::Matrix3Xd posed_landmarks(const Model& model, std::span<const double> parameters) {
   if (!model.poses_itself()) {
@@ -129,8 +117,6 @@ Eigen::Matrix3Xd posed_landmarks(const Model& model, std::span<const double> par
   Eigen::Matrix3Xf vertices;
   Eigen::Matrix3Xd landmarks;
   model.pose(parameters, vertices, landmarks);
-  require_count(landmarks.cols(), static_cast<Eigen::Index>(model.data().landmarks.size()),
-                "landmarks");
   return landmarks;
 }
 
@@ -141,7 +127,6 @@ Eigen::Matrix3Xf posed_vertices(const Model& model, std::span<const double> para
   Eigen::Matrix3Xf vertices;
   Eigen::Matrix3Xd landmarks;
   model.pose(parameters, vertices, landmarks);
-  require_count(vertices.cols(), model.data().mesh.vertices.cols(), "vertices");
   return vertices;
 }
 

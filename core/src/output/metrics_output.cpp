@@ -17,12 +17,12 @@ FrameStatuses statuses_of(const Scene& scene, const Solution& solution) {
   return out;
 }
 
-std::vector<std::string> MetricsOutput::file_names() const {
+std::vector<std::string> MetricsOutput::do_file_names() const {
   return {"truth_states.csv", "truth_landmarks.csv", "errors.csv",   "uncertainty.csv", "trace.csv",
           "truth_costs.csv",  "worst_#.jpg",         "metrics.json", kSummaryFile};
 }
 
-void MetricsOutput::begin(OutputContext& run) {
+void MetricsOutput::do_begin(OutputContext& run) {
   run_ = &run;
   metrics_.emplace(landmark_layout(run.scene().landmark_names()));
   truth_.emplace(metrics_->layout(), run);
@@ -32,7 +32,7 @@ void MetricsOutput::begin(OutputContext& run) {
 
 void MetricsOutput::trace(int frame, const FrameTrace& trace) { trace_->add(frame, trace); }
 
-void MetricsOutput::frame(const Frame& frame, const Solution& solution) {
+void MetricsOutput::do_frame(const Frame& frame, const Solution& solution) {
   const Scene& scene = run_->scene();
   const auto truth = true_landmarks(scene, frame);
   const Eigen::Matrix3Xd landmarks = scene.landmarks(solution.state);
@@ -93,7 +93,7 @@ Summary MetricsOutput::summarize(bool complete) const {
   return summary;
 }
 
-void MetricsOutput::finish(bool complete) {
+void MetricsOutput::do_finish(bool complete) {
   summary_ = summarize(complete);
   worst_.write(*run_);
   if (truth_->known()) TextFile(run_->file("metrics.json")).write(to_json(summary_.metrics));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "cost/term_times.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/scene.hpp"
 #include "output/metrics/metrics.hpp"
@@ -18,7 +19,6 @@
 #include "output/truth_output.hpp"
 #include "output/uncertainty_output.hpp"
 #include "output/worst_frames.hpp"
-#include "session/term_times.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -38,11 +38,6 @@ class MetricsOutput final : public Output {
         term_times_(std::move(term_times)),
         worst_(worst_frames) {}
 
-  std::vector<std::string> file_names() const override;
-  void begin(OutputContext& run) override;
-  void frame(const Frame& frame, const Solution& solution) override;
-  void finish(bool complete) override;
-
   /// Takes how the searches of a frame converged, before its solution. Throws OutputError.
   void trace(int frame, const FrameTrace& trace);
 
@@ -56,6 +51,11 @@ class MetricsOutput final : public Output {
   const Summary& summary() const { return summary_; }
 
  private:
+  std::vector<std::string> do_file_names() const override;
+  void do_begin(OutputContext& run) override;
+  void do_frame(const Frame& frame, const Solution& solution) override;
+  void do_finish(bool complete) override;
+
   void remember_if_bad(const Frame& frame, const Solution& solution, double error,
                        const ScenePose& truth, const Eigen::Matrix3Xd& landmarks);
   Summary summarize(bool complete) const;

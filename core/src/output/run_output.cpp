@@ -116,13 +116,6 @@ void check_outputs(const std::vector<NamedOutput>& outputs) {
 
 }  // namespace hypotrack::internal
 
-namespace hypotrack {
-
-OutputContext::~OutputContext() = default;
-Output::~Output() = default;
-
-}  // namespace hypotrack
-
 namespace hypotrack::internal {
 
 /// The run as one of its outputs sees it.

@@ -9,6 +9,7 @@
 #include <new>
 #include <system_error>
 #include <typeinfo>
+#include <utility>
 
 #include "base/system_problem.hpp"
 #include "hypotrack/error.hpp"
@@ -28,17 +29,9 @@ std::string library_of(const void* object) {
 
 }  // namespace
 
-std::string plugin_label(std::string_view kind, const ConfigNode& config, const void* object) {
-  const std::string who =
-      fmt::format("{}: {} '{}'", config.where(), kind, config.get("type").scalar());
-  const std::string library = library_of(object);
-  return library.empty() ? who : fmt::format("{} ({})", who, library);
-}
-
-bool comes_with_hypotrack(const void* object) {
-  std::error_code error;
-  const auto folder = std::filesystem::path(library_of(object)).parent_path();
-  return std::filesystem::equivalent(folder, own_plugin_folder(), error);
+void set_label(PluginObject& object, std::string_view kind, const ConfigNode& config) {
+  object.set_label(fmt::format("{}: {} '{}'", config.where(), kind, config.get("type").scalar()),
+                   library_of(&object));
 }
 
 void rethrow_from(const std::string& who) {
@@ -85,3 +78,17 @@ std::string current_exception_name() {
 }
 
 }  // namespace hypotrack::detail::internal
+
+namespace hypotrack {
+
+PluginObject::~PluginObject() = default;
+
+void PluginObject::set_label(std::string name, const std::string& library) {
+  label_ = library.empty() ? name : fmt::format("{} ({})", name, library);
+  short_label_ = std::move(name);
+  std::error_code error;
+  const auto folder = std::filesystem::path(library).parent_path();
+  explains_ = std::filesystem::equivalent(folder, detail::own_plugin_folder(), error);
+}
+
+}  // namespace hypotrack

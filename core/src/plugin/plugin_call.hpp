@@ -7,15 +7,16 @@
 #include "base/exported.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/plugin_object.hpp"
 #include "plugin/running_plugin.hpp"
 
 namespace hypotrack::detail {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Names a plugin of a scene: its place there, kind, name and library.
+/// Sets the label of an object that a plugin of a scene made: the plugin's place there, kind, name
+/// and library, such as
 /// `a.yaml:7:3: optimizer 'pso' (/usr/lib/hypotrack/plugins/libhypotrack_optimizer_pso.so)`.
-/// `object`: what the plugin made; its class has virtual functions.
-std::string plugin_label(std::string_view kind, const ConfigNode& config, const void* object);
+void set_label(PluginObject& object, std::string_view kind, const ConfigNode& config);
 
 /// Throws the exception being handled again, with `who` before its message. Other exceptions than
 /// Error become PluginError, std::bad_alloc an Error; Stopped stays. An empty `who` changes
@@ -33,10 +34,6 @@ decltype(auto) call_plugin(const std::string& who, Function&& function) {
   }
 }
 
-/// Returns whether the library of a plugin's object came with hypotrack. Then its Errors are
-/// complete messages.
-bool comes_with_hypotrack(const void* object);
-
 /// Calls a function of a plugin as above. `explains`: its Errors are complete messages, which pass
 /// through unchanged. `place`, such as `frame 3`, stands before `who` in other messages.
 template <class Function>
@@ -51,6 +48,28 @@ decltype(auto) call_plugin(const std::string& who, bool explains, const std::str
   } catch (...) {
     rethrow_from(place.empty() ? who : place + ": " + who);
   }
+}
+
+/// Calls a function of an object that a plugin made. Its label, if it has one, names it in what it
+/// throws, and if it crashes.
+template <class Function>
+decltype(auto) call_plugin(const PluginObject& object, Function&& function) {
+  if (object.label().empty()) return std::forward<Function>(function)();
+  return call_plugin(object.label(), std::forward<Function>(function));
+}
+
+/// Calls a function as above, but lets Errors of an object that explains() them pass. `place`, such
+/// as `frame 3`, stands before the label in other messages.
+template <class Function>
+decltype(auto) call_explained(const PluginObject& object, const std::string& place,
+                              Function&& function) {
+  if (object.label().empty()) return std::forward<Function>(function)();
+  return call_plugin(object.label(), object.explains(), place, std::forward<Function>(function));
+}
+
+/// Returns the label of an object, or `otherwise` if it has none.
+inline std::string label_or(const PluginObject& object, const char* otherwise) {
+  return object.label().empty() ? otherwise : object.label();
 }
 
 /// Returns the type name of the exception being handled: `int`.

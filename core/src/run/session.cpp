@@ -23,15 +23,16 @@ namespace {
 class SourceOfScene final : public Source {
  public:
   explicit SourceOfScene(OpenedScene opened) : opened_(std::move(opened)) {}
-  const std::vector<Camera>& cameras() const override { return opened_.source->cameras(); }
-  double frame_rate() const override { return opened_.source->frame_rate(); }
-  std::optional<int> frame_count() const override { return opened_.source->frame_count(); }
-  std::optional<Frame> next() override { return opened_.source->next(); }
-  bool live() const override { return opened_.source->live(); }
-  std::vector<std::string> notes() const override { return opened_.source->notes(); }
-  std::vector<std::string> statistics() const override { return opened_.source->statistics(); }
 
  private:
+  const std::vector<Camera>& do_cameras() const override { return opened_.source->cameras(); }
+  double do_frame_rate() const override { return opened_.source->frame_rate(); }
+  std::optional<int> do_frame_count() const override { return opened_.source->frame_count(); }
+  std::optional<Frame> do_next() override { return opened_.source->next(); }
+  bool do_live() const override { return opened_.source->live(); }
+  std::vector<std::string> do_notes() const override { return opened_.source->notes(); }
+  std::vector<std::string> do_statistics() const override { return opened_.source->statistics(); }
+
   OpenedScene opened_;
 };
 

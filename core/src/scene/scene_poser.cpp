@@ -1,11 +1,7 @@
 #include "scene/scene_poser.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-
-#include "hypotrack/error.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -61,11 +57,6 @@ void ScenePoser::pose_itself(const ScenePlan::Posed& posed, std::span<const doub
     return;
   }
   posed.model->pose(parameters, posed_vertices_, posed_landmarks_);
-  if (posed_vertices_.cols() != count) {
-    throw PluginError(
-        fmt::format("a model that poses itself returned {} vertices, expected the {} of its mesh",
-                    posed_vertices_.cols(), count));
-  }
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Vector3f vertex = camera_from_world * posed_vertices_.col(i);
     const std::size_t at = posed.first_vertex + static_cast<std::size_t>(i);

@@ -13,8 +13,7 @@
 #include "session/opened_scene.hpp"
 #include "track/displace.hpp"
 
-namespace hypotrack {
-
+namespace hypotrack::internal {
 namespace {
 
 /// Returns a point about half a metre away that both first cameras see: where their axes are
@@ -52,24 +51,6 @@ Eigen::VectorXd state_in_view(const Scene& scene, const std::vector<Camera>& cam
 }
 
 }  // namespace
-
-GlobalSearch::~GlobalSearch() = default;
-Start::~Start() = default;
-
-std::optional<Eigen::VectorXd> Start::state(const StartContext& /*context*/) {
-  return std::nullopt;
-}
-
-bool Start::recognizes(std::size_t /*model*/) const { return false; }
-std::optional<double> Start::size(const StartContext& /*context*/, std::size_t /*model*/) {
-  return std::nullopt;
-}
-void Start::find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& /*take*/) {
-}
-
-}  // namespace hypotrack
-
-namespace hypotrack::internal {
 
 std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame,
                                            std::vector<std::string>* notes) {

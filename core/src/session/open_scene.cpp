@@ -16,11 +16,6 @@
 #include "plugin/plugin_call.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "plugin/scene_keys.hpp"
-#include "session/checked_model.hpp"
-#include "session/checked_objective.hpp"
-#include "session/checked_output.hpp"
-#include "session/checked_source.hpp"
-#include "session/checked_start.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack::internal {
@@ -62,23 +57,16 @@ class Opening {
     std::string resolved;
     auto object = plugins_->make<T>(node, session_.scene.get(), also_allowed, &resolved,
                                     session_.plugin_notes);
+    detail::set_label(*object, kPluginKind<T>, node);
     const ConfigNode parameters = ConfigNode::parse(resolved, "the plugin's parameters");
     for (const std::string& key : also_allowed)
       if (parameters.get(key).defined())
         throw PluginError(fmt::format(
             "{}: its parameter '{}' has a name that scenes take for every {}; rename it in the "
             "plugin",
-            detail::plugin_label(kPluginKind<T>, node, object.get()), key, kPluginKind<T>));
+            object->label(), key, kPluginKind<T>));
     record = YamlDocument(resolved);
     return object;
-  }
-
-  /// Makes a plugin and wraps it into a class that checks it and names it in messages.
-  template <class Checked, class T>
-  std::unique_ptr<T> make_checked(const ConfigNode& node, YamlDocument& record) {
-    auto object = make<T>(node, record);
-    std::string who = detail::plugin_label(kPluginKind<T>, node, object.get());
-    return std::make_unique<Checked>(std::move(object), std::move(who));
   }
 
   SceneFile file_;
@@ -122,7 +110,11 @@ void Opening::models() {
     const ConfigNode node = file_.models.at(i);
     YamlDocument record;
     std::shared_ptr<const Model> model = make<Model>(node, record);
-    model = checked_model(model, detail::plugin_label(kPluginKind<Model>, node, model.get()));
+    if (model->data().landmarks.empty())
+      throw PluginError(fmt::format(
+          "{}: has no landmarks, expected one at least, such as its centre; this is a bug in the "
+          "model",
+          model->label()));
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
     const auto allowed = [](unsigned char c) {
       return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80;  // the rest of UTF-8
@@ -149,12 +141,8 @@ void Opening::source() {
   gl::prefer_gpu(file_.evaluate.device);
   YamlDocument record;
   auto made = make<Source>(file_.source, record);
-  std::string who = detail::plugin_label(kPluginKind<Source>, file_.source, made.get());
-  std::string plugin =
-      fmt::format("{}: source '{}'", file_.source.where(), text_of(file_.source, "type", ""));
-  source(std::make_unique<CheckedSource>(std::move(made), *session_.scene, std::move(plugin),
-                                         std::move(who)),
-         record.text());
+  made->check_for(*session_.scene);
+  source(std::move(made), record.text());
 }
 
 void Opening::source(std::unique_ptr<Source> open, const std::string& resolved) {
@@ -175,9 +163,9 @@ void Opening::objective() {
     YamlDocument record;
     ObjectiveTerm term;
     term.name = text_of(node, "type", "");
-    term.objective = make_checked<CheckedObjective, Objective>(node, record);
-    session_.term_times.push_back({fmt::format("{} ({})", node.path(), term.name),
-                                   static_cast<CheckedObjective&>(*term.objective).times()});
+    term.objective = make<Objective>(node, record);
+    session_.term_times.push_back(
+        {fmt::format("{} ({})", node.path(), term.name), term.objective->times()});
     const ConfigNode weight = node.get("weight");
     if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
     record.set_plain("weight", fmt::format("{}", term.weight));
@@ -204,8 +192,6 @@ void Opening::images() {
 void Opening::optimizer() {
   YamlDocument record;
   session_.parts.optimizer = make<Optimizer>(file_.optimizer, record);
-  session_.parts.optimizer_label =
-      detail::plugin_label(kPluginKind<Optimizer>, file_.optimizer, session_.parts.optimizer.get());
   record_.set("optimizer", record);
 }
 
@@ -218,7 +204,6 @@ void Opening::judge() {
   }
   YamlDocument record;
   std::unique_ptr<Judge> judge = make<Judge>(node, record);
-  judge->set_label(detail::plugin_label(kPluginKind<Judge>, node, judge.get()));
   const JudgeThresholds& t = judge->thresholds();
   if (t.uncertain_above > t.tracked_above)
     throw ConfigError(fmt::format(
@@ -237,7 +222,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
   for (const ConfigNode& node : nodes) {
     YamlDocument record;
     try {
-      all.push_back(make_checked<CheckedStart, Start>(node, record));
+      all.push_back(make<Start>(node, record));
     } catch (const DataError& e) {
       if (from.scalar() != kStartAuto) throw;
       session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
@@ -300,7 +285,7 @@ void Opening::start() {
 void Opening::outputs() {
   const auto add = [&](const ConfigNode& node) {
     YamlDocument record;
-    auto output = make_checked<CheckedOutput, Output>(node, record);
+    auto output = make<Output>(node, record);
     session_.outputs.push_back({text_of(node, "type", ""), std::move(output)});
     return record;
   };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "cost/term_times.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/plugin.hpp"
@@ -16,7 +17,6 @@
 #include "hypotrack/source.hpp"
 #include "hypotrack/start.hpp"
 #include "session/scene_file.hpp"
-#include "session/term_times.hpp"
 #include "track/loop/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 

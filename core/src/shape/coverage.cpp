@@ -14,17 +14,17 @@ std::int64_t covered_pixels(const DepthTile& tile) {
   return count;
 }
 
-void Coverage::prepare(const Observation& observation) {
+void Coverage::do_prepare(const Observation& observation) {
   const TileCamera& camera = observation.views.front().camera;
   count_ = std::int64_t{camera.width} * camera.height;
 }
 
-double Coverage::cost(const RenderedHypothesis& hypothesis) const {
+double Coverage::do_cost(const RenderedHypothesis& hypothesis) const {
   return charge_ * static_cast<double>(covered_pixels(hypothesis.views.front()));
 }
 
-void Coverage::write_residuals(const RenderedHypothesis& hypothesis,
-                               std::span<float> residuals) const {
+void Coverage::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                  std::span<float> residuals) const {
   std::fill(residuals.begin(), residuals.end(), 0.0f);
   const auto value = static_cast<float>(std::sqrt(charge_));
   const DepthTile& tile = hypothesis.views.front();

@@ -18,14 +18,14 @@ class Coverage final : public Objective, public ResidualTerm {
   void set_charge(double charge) { charge_ = charge; }
   double charge() const { return charge_; }
 
-  void prepare(const Observation& observation) override;
-  double cost(const RenderedHypothesis& hypothesis) const override;
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return count_; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-
  private:
+  void do_prepare(const Observation& observation) override;
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return count_; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+
   double charge_ = 0;
   std::int64_t count_ = 0;
 };

@@ -18,7 +18,7 @@ ReplaySource::ReplaySource(std::unique_ptr<Source> from, std::vector<Frame> fram
       rest_(std::move(from)),
       frames_(std::move(frames)) {}
 
-std::optional<Frame> ReplaySource::next() {
+std::optional<Frame> ReplaySource::do_next() {
   if (next_ < frames_.size()) {
     // With a rest, frames are read once only: they need not stay in memory.
     const std::size_t i = next_++;
@@ -27,11 +27,11 @@ std::optional<Frame> ReplaySource::next() {
   return rest_ ? rest_->next() : std::nullopt;
 }
 
-std::vector<std::string> ReplaySource::notes() const {
+std::vector<std::string> ReplaySource::do_notes() const {
   return rest_ ? rest_->notes() : std::vector<std::string>{};
 }
 
-std::vector<std::string> ReplaySource::statistics() const {
+std::vector<std::string> ReplaySource::do_statistics() const {
   return rest_ ? rest_->statistics() : std::vector<std::string>{};
 }
 

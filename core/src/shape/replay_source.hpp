@@ -13,19 +13,19 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Replays frames that were read already, then continues with the rest of a source.
 class ReplaySource final : public Source {
  public:
-  /// Replays `frames` only, with the cameras and frame rate of `from`.
+  /// Replays `frames` only, with cameras and frame rate of `from`.
   ReplaySource(const Source& from, std::vector<Frame> frames);
   /// Replays `frames`, then the rest of `from`.
   ReplaySource(std::unique_ptr<Source> from, std::vector<Frame> frames);
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return frame_rate_; }
-  std::optional<int> frame_count() const override { return count_; }
-  std::optional<Frame> next() override;
-  std::vector<std::string> notes() const override;
-  std::vector<std::string> statistics() const override;
-
  private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return frame_rate_; }
+  std::optional<int> do_frame_count() const override { return count_; }
+  std::optional<Frame> do_next() override;
+  std::vector<std::string> do_notes() const override;
+  std::vector<std::string> do_statistics() const override;
+
   std::vector<Camera> cameras_;
   double frame_rate_;
   std::optional<int> count_;

@@ -8,7 +8,6 @@
 
 #include "base/profile.hpp"
 #include "cost/search_clock.hpp"
-#include "hypotrack/refines_start.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/stop.hpp"
 #include "plugin/plugin_call.hpp"
@@ -41,7 +40,6 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       terms_(parts.objective),
       cost_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
       optimizer_(std::move(parts.optimizer)),
-      optimizer_label_(parts.optimizer_label),
       clock_(parts.clock),
       keeps_tiles_(joined_use(parts.objective).previous) {}
 
@@ -108,9 +106,7 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
 Eigen::VectorXd FrameSearch::refined(const Eigen::VectorXd& prior) {
   if (!std::exchange(is_fresh_, false)) return prior;
   for (const ObjectiveTerm& term : terms_) {
-    const auto* refines = dynamic_cast<const RefinesStart*>(term.objective.get());
-    if (!refines) continue;
-    const Eigen::VectorXd start = refines->refined_start();
+    const Eigen::VectorXd start = term.objective->refined_start();
     if (start.size() == 0) continue;
     Eigen::VectorXd out = prior;
     for (std::size_t m = 0; m < moving_.size(); ++m) {
@@ -168,17 +164,18 @@ Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
 OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& region,
                                       const Budget& budget, std::uint64_t seed) {
   const ProfiledPart part("search");
-  const detail::RunningPlugin running(optimizer_label_.c_str());
+  const std::string who = detail::label_or(*optimizer_, "the optimizer");
+  const detail::RunningPlugin running(who.c_str());
   const SearchClockScope clock(clock_);
   OptimizerResult answer;
   try {
     answer = optimizer_->minimize(cost, region, budget, seed);
   } catch (...) {
     if (cost.tally().failed) throw;
-    detail::rethrow_from(optimizer_label_);
+    detail::rethrow_from(who);
   }
   check_stop();  // in case the optimizer caught it
-  check_answer(answer, cost.tally(), region, budget, optimizer_label_);
+  check_answer(answer, cost.tally(), region, budget, who);
   return answer;
 }
 

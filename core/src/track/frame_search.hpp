@@ -78,7 +78,7 @@ class FrameSearch {
   double truth_cost();
 
   /// Searches the prepared frame once, from `prior`. The first search of a frame starts where an
-  /// objective refined the start (RefinesStart).
+  /// objective refined the start (Objective::refined_start()).
   Found from(const Eigen::VectorXd& prior, const Budget& budget, const std::optional<Reach>& reach,
              std::uint64_t seed);
 
@@ -138,7 +138,6 @@ class FrameSearch {
   bool is_fresh_ = false;  ///< no search was made since look()
   FallbackCost cost_;
   std::unique_ptr<Optimizer> optimizer_;
-  std::string optimizer_label_;
   SearchClock clock_;
   bool keeps_tiles_;                                  ///< a term reads tiles of `previous_`
   std::shared_ptr<const PreviousSolution> previous_;  ///< null: none

@@ -40,7 +40,6 @@ struct TrackerParts {
   std::vector<std::unique_ptr<Start>> starts = {};
   /// True if they also look for models that were never seen: no start gives a state.
   bool begins_by_looking = false;
-  std::string optimizer_label = "the optimizer";  ///< plugin_label() of the optimizer, for messages
 };
 
 /// Returns what the search, the uncertainty and fixed-lag smoothing require of the cost.

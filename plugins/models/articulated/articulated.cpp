@@ -118,9 +118,10 @@ class Articulated : public Model {
   using Params = ArticulatedParams;
   Articulated(const Params& params, PluginContext& context) : Model(make_object(params, context)) {}
 
+ private:
   /// Returns the directions of a robot's hand, if the anchors have the names of a hand's landmarks.
-  std::vector<NamedDirection> directions() const override { return palm_directions(*this); }
-  std::vector<std::string> clear_landmarks() const override {
+  std::vector<NamedDirection> do_directions() const override { return palm_directions(*this); }
+  std::vector<std::string> do_clear_landmarks() const override {
     return palm_axes(*this) ? clear_hand_landmarks() : std::vector<std::string>();
   }
 };

@@ -123,18 +123,18 @@ class Hand : public Model {
   Hand(const Params& params, PluginContext& context)
       : Hand(neutral_hand(params, context), read_shape(params.shape, hand_shape_parameters())) {}
 
-  std::vector<ShapeParameter> shape_parameters() const override {
+ private:
+  std::vector<ShapeParameter> do_shape_parameters() const override {
     std::vector<ShapeParameter> parameters = hand_shape_parameters();
     for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].value = shape_[i];
     return parameters;
   }
-  ModelData shaped(std::span<const double> values) const override {
+  ModelData do_shaped(std::span<const double> values) const override {
     return shaped_hand(neutral_, values);
   }
-  std::vector<NamedDirection> directions() const override { return palm_directions(*this); }
-  std::vector<std::string> clear_landmarks() const override { return clear_hand_landmarks(); }
+  std::vector<NamedDirection> do_directions() const override { return palm_directions(*this); }
+  std::vector<std::string> do_clear_landmarks() const override { return clear_hand_landmarks(); }
 
- private:
   Hand(const ModelData& neutral, std::vector<double> shape)
       : Model(shaped_hand(neutral, shape)), neutral_(neutral), shape_(std::move(shape)) {}
 

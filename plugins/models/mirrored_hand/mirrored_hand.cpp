@@ -51,21 +51,21 @@ class MirroredHand : public Model {
   MirroredHand(const Params& params, PluginContext& context)
       : MirroredHand(make_original(params, context)) {}
 
-  std::vector<ShapeParameter> shape_parameters() const override { return original_.shape; }
-  ModelData shaped(std::span<const double> values) const override {
+ private:
+  std::vector<ShapeParameter> do_shape_parameters() const override { return original_.shape; }
+  ModelData do_shaped(std::span<const double> values) const override {
     return mirrored(original_.model->shaped(values));
   }
   /// Returns the directions of the original, mirrored.
-  std::vector<NamedDirection> directions() const override {
+  std::vector<NamedDirection> do_directions() const override {
     std::vector<NamedDirection> all = original_.model->directions();
     for (NamedDirection& direction : all) direction.axis.x() *= -1;
     return all;
   }
-  std::vector<std::string> clear_landmarks() const override {
+  std::vector<std::string> do_clear_landmarks() const override {
     return original_.model->clear_landmarks();
   }
 
- private:
   explicit MirroredHand(Original original)
       : Model(mirror(original)), original_(std::move(original)) {}
 

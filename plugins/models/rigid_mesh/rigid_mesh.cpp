@@ -121,16 +121,16 @@ class RigidMesh : public Model {
   RigidMesh(const Params& params, PluginContext& context)
       : RigidMesh(make_object(params, context), read_shape(params.shape, size_parameters())) {}
 
-  std::vector<ShapeParameter> shape_parameters() const override {
+ private:
+  std::vector<ShapeParameter> do_shape_parameters() const override {
     std::vector<ShapeParameter> parameters = size_parameters();
     parameters[0].value = shape_[0];
     return parameters;
   }
-  ModelData shaped(std::span<const double> values) const override {
+  ModelData do_shaped(std::span<const double> values) const override {
     return scaled(neutral_, values);
   }
 
- private:
   RigidMesh(const ModelData& neutral, std::vector<double> shape)
       : Model(scaled(neutral, shape)), neutral_(neutral), shape_(std::move(shape)) {}
 

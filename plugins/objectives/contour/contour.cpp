@@ -62,7 +62,7 @@ Contour::Contour(const Params& params, const Scene& scene, const PluginLog& log)
   if (models_.empty()) log.warning("no model is rigid; the objective costs nothing");
 }
 
-void Contour::prepare(const Observation& observation) {
+void Contour::do_prepare(const Observation& observation) {
   check(observation, params_.depth_sigma > 0);
   learn(observation);
   lines_.clear();
@@ -157,26 +157,26 @@ void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
                        match_depth(model.surface, pose, *view)});
 }
 
-double Contour::cost(const RenderedHypothesis& hypothesis) const {
+double Contour::do_cost(const RenderedHypothesis& hypothesis) const {
   return contour::cost_and_residuals(lines_, hypothesis.state, {}) +
          contour::cost_and_residuals(depths_, hypothesis.state, {});
 }
 
-void Contour::write_residuals(const RenderedHypothesis& hypothesis,
-                              std::span<float> residuals) const {
-  cost_and_residuals(hypothesis, residuals);
+void Contour::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                 std::span<float> residuals) const {
+  do_cost_and_residuals(hypothesis, residuals);
 }
 
-double Contour::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                   std::span<float> residuals) const {
+double Contour::do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                      std::span<float> residuals) const {
   const auto lines = static_cast<std::size_t>(contour::residual_count(lines_));
   return contour::cost_and_residuals(lines_, hypothesis.state, residuals.first(lines)) +
          contour::cost_and_residuals(depths_, hypothesis.state, residuals.subspan(lines));
 }
 
-void Contour::write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                             Jacobian& jacobian) const {
-  cost_and_residuals(hypothesis, residuals);
+void Contour::do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                                Jacobian& jacobian) const {
+  do_cost_and_residuals(hypothesis, residuals);
   contour::write_jacobian(lines_, hypothesis.state, jacobian);
   contour::write_jacobian(depths_, hypothesis.state, contour::residual_count(lines_), jacobian);
 }

@@ -12,7 +12,6 @@
 #include "depth_term.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/plugin_log.hpp"
-#include "hypotrack/refines_start.hpp"
 #include "line_term.hpp"
 #include "params.hpp"
 #include "region_fit.hpp"
@@ -32,33 +31,36 @@ namespace hypotrack::contour {
 ///
 /// Colours are learned along the outlines of the start, and then of every answer. Models with
 /// joints cost nothing. Lines of a model that another one hides are left out.
-class Contour : public Objective, public ResidualTerm, public RefinesStart {
+class Contour : public Objective, public ResidualTerm {
  public:
   using Params = contour::Params;
 
   /// Draws models that are not in the cache.
   Contour(const Params& params, const Scene& scene, const PluginLog& log = {});
 
-  bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.mask = false, .depth = params_.depth_sigma > 0}; }
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  ImageUse do_image_use() const override {
+    return {.mask = false, .depth = params_.depth_sigma > 0};
+  }
   /// Uses the views with colour. Throws DataError if none has, and with `depth_sigma_mm` if none
   /// has depth.
-  void prepare(const Observation& observation) override;
-  double cost(const RenderedHypothesis& hypothesis) const override;
+  void do_prepare(const Observation& observation) override;
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
 
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override {
     return contour::residual_count(lines_) + contour::residual_count(depths_);
   }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override;
-  bool has_jacobian() const override { return true; }
-  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                      Jacobian& jacobian) const override;
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override;
+  bool do_has_jacobian() const override { return true; }
+  void do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                         Jacobian& jacobian) const override;
 
-  Eigen::VectorXd refined_start() const override { return refined_; }
+  Eigen::VectorXd do_refined_start() const override { return refined_; }
 
  private:
   struct RigidModel {

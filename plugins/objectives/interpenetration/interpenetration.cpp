@@ -21,25 +21,25 @@ Interpenetration::Interpenetration(const InterpenetrationParams& params, const S
                                    const std::string& where)
     : plan_(scene, params.tolerance, params.within_models, where), term_(plan_.term()) {}
 
-double Interpenetration::cost(const RenderedHypothesis& hypothesis) const {
+double Interpenetration::do_cost(const RenderedHypothesis& hypothesis) const {
   return term_.cost(hypothesis.state.data(), static_cast<int>(hypothesis.state.size()), OneThread{},
                     scratch_of(term_));
 }
 
-void Interpenetration::write_residuals(const RenderedHypothesis& hypothesis,
-                                       std::span<float> residuals) const {
-  cost_and_residuals(hypothesis, residuals);
+void Interpenetration::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                          std::span<float> residuals) const {
+  do_cost_and_residuals(hypothesis, residuals);
 }
 
-double Interpenetration::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                            std::span<float> residuals) const {
+double Interpenetration::do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                               std::span<float> residuals) const {
   const auto put = [&](std::int64_t i, float r) { residuals[static_cast<std::size_t>(i)] = r; };
   return term_.cost_and_residuals(hypothesis.state.data(),
                                   static_cast<int>(hypothesis.state.size()), OneThread{},
                                   scratch_of(term_), put);
 }
 
-std::unique_ptr<cuda::DeviceObjective> Interpenetration::on_device() const {
+std::unique_ptr<cuda::DeviceObjective> Interpenetration::do_on_device() const {
   return interpenetration::on_device(term_);
 }
 

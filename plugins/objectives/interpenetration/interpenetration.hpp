@@ -41,20 +41,21 @@ class Interpenetration : public Objective, public ResidualTerm {
   Interpenetration(const InterpenetrationParams& params, const Scene& scene,
                    const std::string& where = "interpenetration");
 
-  bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.color = false, .mask = false, .depth = false}; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override;
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
-
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return term_.pair_count; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override;
-
   const CollisionPlan& plan() const { return plan_; }
+
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  ImageUse do_image_use() const override { return {.color = false, .mask = false, .depth = false}; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override;
+
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return term_.pair_count; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override;
 
  private:
   CollisionPlan plan_;

@@ -34,7 +34,7 @@ Landmarks::Landmarks(const Params& params, const Scene& scene, Detector detector
   }
 }
 
-void Landmarks::prepare(const Observation& observation) {
+void Landmarks::do_prepare(const Observation& observation) {
   sights_.clear();
   for (const Hand& hand : hands_) sights_.push_back({hand.item->model.get(), hand.item->offset});
   std::vector<std::size_t> views;  // with colour
@@ -122,29 +122,29 @@ void Landmarks::take_hand(HandSights& sights, const HandModel& model, const Tile
   }
 }
 
-double Landmarks::cost(const RenderedHypothesis& hypothesis) const {
-  return cost_and_residuals(hypothesis, {});
+double Landmarks::do_cost(const RenderedHypothesis& hypothesis) const {
+  return do_cost_and_residuals(hypothesis, {});
 }
 
-void Landmarks::write_residuals(const RenderedHypothesis& hypothesis,
-                                std::span<float> residuals) const {
-  cost_and_residuals(hypothesis, residuals);
+void Landmarks::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                   std::span<float> residuals) const {
+  do_cost_and_residuals(hypothesis, residuals);
 }
 
-double Landmarks::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                     std::span<float> residuals) const {
+double Landmarks::do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                        std::span<float> residuals) const {
   return landmarks::cost_and_residuals(sights_, {params_.free, params_.sigma}, hypothesis.state,
                                        residuals);
 }
 
-bool Landmarks::has_jacobian() const {
+bool Landmarks::do_has_jacobian() const {
   return std::ranges::none_of(hands_,
                               [](const Hand& hand) { return hand.item->model->poses_itself(); });
 }
 
-void Landmarks::write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                               Jacobian& jacobian) const {
-  cost_and_residuals(hypothesis, residuals);
+void Landmarks::do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                                  Jacobian& jacobian) const {
+  do_cost_and_residuals(hypothesis, residuals);
   landmarks::write_jacobian(sights_, {params_.free, params_.sigma}, hypothesis.state, jacobian);
 }
 

@@ -34,21 +34,22 @@ class Landmarks : public Objective, public ResidualTerm {
   /// The scene must outlive it. The detector is not asked if no model of the scene is a hand.
   Landmarks(const Params& params, const Scene& scene, Detector detector, PluginLog log = {});
 
-  bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.mask = false, .depth = false}; }
-  void prepare(const Observation& observation) override;
-  double cost(const RenderedHypothesis& hypothesis) const override;
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  ImageUse do_image_use() const override { return {.mask = false, .depth = false}; }
+  void do_prepare(const Observation& observation) override;
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
 
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return landmarks::residual_count(sights_); }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override;
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return landmarks::residual_count(sights_); }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override;
   /// Returns false if a hand poses itself.
-  bool has_jacobian() const override;
-  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                      Jacobian& jacobian) const override;
+  bool do_has_jacobian() const override;
+  void do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                         Jacobian& jacobian) const override;
 
  private:
   struct Hand {

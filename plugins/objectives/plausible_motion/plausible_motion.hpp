@@ -32,21 +32,22 @@ class PlausibleMotion : public Objective, public ResidualTerm {
   using Params = PlausibleMotionParams;
   PlausibleMotion(const Params& params, const Scene& scene) : residuals_(params, scene) {}
 
-  bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.color = false, .mask = false, .depth = false}; }
-  void prepare(const Observation& observation) override;
-  double cost(const RenderedHypothesis& hypothesis) const override;
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  ImageUse do_image_use() const override { return {.color = false, .mask = false, .depth = false}; }
+  void do_prepare(const Observation& observation) override;
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override;
 
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return term_.count; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override;
-  bool has_jacobian() const override { return true; }
-  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
-                      Jacobian& jacobian) const override;
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return term_.count; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override;
+  bool do_has_jacobian() const override { return true; }
+  void do_write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                         Jacobian& jacobian) const override;
 
  private:
   FrameResiduals residuals_;

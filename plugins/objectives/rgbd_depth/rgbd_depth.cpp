@@ -15,12 +15,12 @@ std::span<const std::string_view> enum_names(Foreground) {
 
 RgbdDepth::RgbdDepth(const Params& params) : params_(params) {}
 
-ImageUse RgbdDepth::image_use() const {
+ImageUse RgbdDepth::do_image_use() const {
   const Foreground by = params_.foreground;
   return {.mask = by == Foreground::automatic || by == Foreground::mask, .depth = true};
 }
 
-void RgbdDepth::prepare(const Observation& observation) {
+void RgbdDepth::do_prepare(const Observation& observation) {
   views_.clear();
   check(observation, params_.foreground);
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
@@ -45,7 +45,7 @@ void RgbdDepth::price_pixels() {
   }
 }
 
-std::int64_t RgbdDepth::residual_count() const {
+std::int64_t RgbdDepth::do_residual_count() const {
   auto count = static_cast<std::int64_t>(fingers_.size());
   for (const PreparedView& view : views_) {
     count += std::int64_t{view.uncovered.width()} * view.uncovered.height();
@@ -53,8 +53,8 @@ std::int64_t RgbdDepth::residual_count() const {
   return count;
 }
 
-void RgbdDepth::write_residuals(const RenderedHypothesis& hypothesis,
-                                std::span<float> residuals) const {
+void RgbdDepth::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                   std::span<float> residuals) const {
   check_tiles(hypothesis);
   for (const PreparedView& view : views_) {
     const auto size = static_cast<std::size_t>(view.uncovered.width()) * view.uncovered.height();
@@ -69,7 +69,7 @@ void RgbdDepth::write_residuals(const RenderedHypothesis& hypothesis,
   }
 }
 
-double RgbdDepth::cost(const RenderedHypothesis& hypothesis) const {
+double RgbdDepth::do_cost(const RenderedHypothesis& hypothesis) const {
   check_tiles(hypothesis);
   Totals totals{};
   for (const PreparedView& view : views_) {
@@ -89,7 +89,7 @@ double RgbdDepth::cost(const RenderedHypothesis& hypothesis) const {
 
 Weights RgbdDepth::weights() const { return {params_.d_max, params_.lambda, params_.lambda_k}; }
 
-std::unique_ptr<cuda::DeviceObjective> RgbdDepth::on_device() const {
+std::unique_ptr<cuda::DeviceObjective> RgbdDepth::do_on_device() const {
   return make_device_objective(params_);
 }
 

@@ -62,21 +62,21 @@ class RgbdDepth : public Objective, public ResidualTerm {
 
   explicit RgbdDepth(const Params& params);
 
-  ImageUse image_use() const override;
+ private:
+  ImageUse do_image_use() const override;
   /// Uses the views that have depth. Throws DataError if none has, if a view lacks the mask or
   /// colour that the parameters need, and on images without their tile's size and type.
-  void prepare(const Observation& observation) override;
+  void do_prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
-  double cost(const RenderedHypothesis& hypothesis) const override;
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override;
 
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override;
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override;
   /// Throws DataError as cost() does.
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
 
- private:
   struct PreparedView {
     std::size_t index;  ///< among the observation's views
     ObservedView observed;

@@ -21,14 +21,14 @@ std::span<const std::string_view> enum_names(Foreground) {
 
 Skin::Skin(const Params& params) : params_(params) {}
 
-ImageUse Skin::image_use() const {
+ImageUse Skin::do_image_use() const {
   const Foreground by = params_.foreground;
   return {.mask = by == Foreground::automatic || by == Foreground::mask,
           .depth = by == Foreground::depth,
           .background = params_.still_cameras};
 }
 
-void Skin::prepare(const Observation& observation) {
+void Skin::do_prepare(const Observation& observation) {
   views_.clear();
   view_numbers_.clear();
   check(observation, params_.foreground);
@@ -49,7 +49,7 @@ void Skin::prepare(const Observation& observation) {
 
 float Skin::share() const { return 1.0f / static_cast<float>(views_.size()); }
 
-double Skin::cost(const RenderedHypothesis& hypothesis) const {
+double Skin::do_cost(const RenderedHypothesis& hypothesis) const {
   double sum = 0;
   for (const PreparedView& view : views_) {
     const auto& plane = view.foreground.pixels;
@@ -60,11 +60,11 @@ double Skin::cost(const RenderedHypothesis& hypothesis) const {
   return sum / static_cast<double>(views_.size());
 }
 
-std::unique_ptr<cuda::DeviceObjective> Skin::on_device() const {
+std::unique_ptr<cuda::DeviceObjective> Skin::do_on_device() const {
   return make_device_objective(params_);
 }
 
-std::int64_t Skin::residual_count() const {
+std::int64_t Skin::do_residual_count() const {
   std::int64_t count = 0;
   for (const PreparedView& view : views_) {
     count += std::int64_t{view.uncovered.width()} * view.uncovered.height();
@@ -72,12 +72,13 @@ std::int64_t Skin::residual_count() const {
   return count;
 }
 
-void Skin::write_residuals(const RenderedHypothesis& hypothesis, std::span<float> residuals) const {
-  cost_and_residuals(hypothesis, residuals);
+void Skin::do_write_residuals(const RenderedHypothesis& hypothesis,
+                              std::span<float> residuals) const {
+  do_cost_and_residuals(hypothesis, residuals);
 }
 
-double Skin::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                std::span<float> residuals) const {
+double Skin::do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                   std::span<float> residuals) const {
   double sum = 0;
   for (const PreparedView& view : views_) {
     const auto size = static_cast<std::size_t>(view.uncovered.width()) * view.uncovered.height();
@@ -87,8 +88,8 @@ double Skin::cost_and_residuals(const RenderedHypothesis& hypothesis,
   return sum / static_cast<double>(views_.size());
 }
 
-void Skin::write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
-                        std::span<float> residuals, std::span<float> slopes) const {
+void Skin::do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                           std::span<float> residuals, std::span<float> slopes) const {
   measure(views_[i], hypothesis, residuals);
   std::ranges::fill(slopes, 0.0f);
 }

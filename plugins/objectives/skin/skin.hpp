@@ -29,29 +29,29 @@ class Skin : public Objective, public ResidualTerm {
 
   explicit Skin(const Params& params);
 
-  ImageUse image_use() const override;
+ private:
+  ImageUse do_image_use() const override;
   /// Uses the views that have what the parameters need. Throws DataError if none has, and on images
   /// without their tile's size and type.
-  void prepare(const Observation& observation) override;
+  void do_prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
-  double cost(const RenderedHypothesis& hypothesis) const override;
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override;
 
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override;
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override;
   /// Writes the residuals. Throws DataError as cost() does, like cost_and_residuals().
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override;
-  bool has_slopes() const override { return true; }
-  std::span<const int> pixel_views() const override { return view_numbers_; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override;
+  bool do_has_slopes() const override { return true; }
+  std::span<const int> do_pixel_views() const override { return view_numbers_; }
   /// Writes slopes of 0: the residual depends on whether a pixel is covered, not on its depth.
   /// Throws DataError as cost() does.
-  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
-                    std::span<float> slopes) const override;
+  void do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                       std::span<float> residuals, std::span<float> slopes) const override;
 
- private:
   struct PreparedView {
     std::size_t index;  ///< among the observation's views
     ViewForeground foreground;

@@ -57,15 +57,15 @@ StereoColor::StereoColor(const Params& params) : params_(params), of_frame_(para
         enum_names(params.color_space)[static_cast<std::size_t>(params.color_space)]));
 }
 
-ImageUse StereoColor::image_use() const { return {.mask = params_.use_mask, .depth = false}; }
+ImageUse StereoColor::do_image_use() const { return {.mask = params_.use_mask, .depth = false}; }
 
-void StereoColor::prepare(const Observation& observation) {
+void StereoColor::do_prepare(const Observation& observation) {
   check(observation);
   of_frame_.beta = beta_of(params_, observation);
   tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
     features_[i] = make_features(observation.views[i], params_);
     maps_[i] = stereo_map(observation, static_cast<int>(i), static_cast<int>(1 - i));
-    if (residual_term() && uses(i)) uncovered_[i] = uncovered_residuals(features_[i], share());
+    if (do_residual_term() && uses(i)) uncovered_[i] = uncovered_residuals(features_[i], share());
   });
 }
 
@@ -76,7 +76,7 @@ void StereoColor::check_tiles(const RenderedHypothesis& hypothesis) const {
   }
 }
 
-double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
+double StereoColor::do_cost(const RenderedHypothesis& hypothesis) const {
   check_tiles(hypothesis);
   double sum = 0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -87,11 +87,11 @@ double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
   return cost_of(sum);
 }
 
-std::unique_ptr<cuda::DeviceObjective> StereoColor::on_device() const {
+std::unique_ptr<cuda::DeviceObjective> StereoColor::do_on_device() const {
   return make_device_objective(params_);
 }
 
-std::vector<PixelMap> StereoColor::maps(const RenderedHypothesis& hypothesis) const {
+std::vector<PixelMap> StereoColor::do_maps(const RenderedHypothesis& hypothesis) const {
   check_tiles(hypothesis);
   constexpr float kFallen = 3;  // x at which exp(-x) is 5 %
   const auto beta = static_cast<float>(of_frame_.beta);
@@ -117,11 +117,11 @@ bool StereoColor::uses(std::size_t from) const {
 
 float StereoColor::share() const { return params_.direction == Direction::both ? 0.5f : 1.0f; }
 
-const ResidualTerm* StereoColor::residual_term() const {
+const ResidualTerm* StereoColor::do_residual_term() const {
   return params_.aggregation == Aggregation::sum ? this : nullptr;
 }
 
-std::int64_t StereoColor::residual_count() const {
+std::int64_t StereoColor::do_residual_count() const {
   std::int64_t count = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& plane = features_[i].channels_01;
@@ -130,13 +130,13 @@ std::int64_t StereoColor::residual_count() const {
   return count;
 }
 
-void StereoColor::write_residuals(const RenderedHypothesis& hypothesis,
-                                  std::span<float> residuals) const {
-  cost_and_residuals(hypothesis, residuals);
+void StereoColor::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                     std::span<float> residuals) const {
+  do_cost_and_residuals(hypothesis, residuals);
 }
 
-double StereoColor::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                       std::span<float> residuals) const {
+double StereoColor::do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                          std::span<float> residuals) const {
   check_tiles(hypothesis);
   double sum = 0;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -152,17 +152,17 @@ double StereoColor::cost_and_residuals(const RenderedHypothesis& hypothesis,
   return cost_of(sum);
 }
 
-std::span<const int> StereoColor::pixel_views() const {
+std::span<const int> StereoColor::do_pixel_views() const {
   static constexpr std::array<int, 2> kViews{0, 1};
   const std::span<const int> views(kViews);
   if (params_.direction == Direction::both) return views;
   return views.subspan(uses(0) ? 0 : 1, 1);
 }
 
-void StereoColor::write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
-                               std::span<float> residuals, std::span<float> slopes) const {
+void StereoColor::do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                                  std::span<float> residuals, std::span<float> slopes) const {
   check_tiles(hypothesis);
-  const auto here = static_cast<std::size_t>(pixel_views()[i]);
+  const auto here = static_cast<std::size_t>(do_pixel_views()[i]);
   stereo_color::write_slopes({features_[here], hypothesis.views[here]},
                              {features_[1 - here], hypothesis.views[1 - here]}, maps_[here],
                              of_frame_, share(), uncovered_[here], residuals, slopes);

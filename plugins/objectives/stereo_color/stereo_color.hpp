@@ -52,33 +52,33 @@ class StereoColor : public Objective, public ResidualTerm {
 
   explicit StereoColor(const Params& params);
 
-  ImageUse image_use() const override;
+ private:
+  ImageUse do_image_use() const override;
   /// Uses the first two views. Throws DataError if there are fewer, on tiles under 2x2 pixels, and
   /// on images without their tile's size and type.
-  void prepare(const Observation& observation) override;
+  void do_prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
-  double cost(const RenderedHypothesis& hypothesis) const override;
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
-  bool has_maps() const override { return true; }
+  double do_cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override;
+  bool do_has_maps() const override { return true; }
   /// Returns distinctiveness C, colour difference and consistency s. Throws DataError as cost()
   /// does.
-  std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const override;
+  std::vector<PixelMap> do_maps(const RenderedHypothesis& hypothesis) const override;
 
   /// Returns this, or null if the aggregation divides the sum.
-  const ResidualTerm* residual_term() const override;
-  std::int64_t residual_count() const override;
+  const ResidualTerm* do_residual_term() const override;
+  std::int64_t do_residual_count() const override;
   /// Throws DataError as cost() does.
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override;
-  bool has_slopes() const override { return true; }
-  std::span<const int> pixel_views() const override;
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override;
+  bool do_has_slopes() const override { return true; }
+  std::span<const int> do_pixel_views() const override;
   /// Throws DataError as cost() does.
-  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
-                    std::span<float> slopes) const override;
-  double cost_and_residuals(const RenderedHypothesis& hypothesis,
-                            std::span<float> residuals) const override;
+  void do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                       std::span<float> residuals, std::span<float> slopes) const override;
+  double do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const override;
 
- private:
   void check_tiles(const RenderedHypothesis& hypothesis) const;
   double score(const Similarity& similarity) const;
   double cost_of(double scores) const;  ///< of the sum of the used directions' scores

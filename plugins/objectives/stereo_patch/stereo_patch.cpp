@@ -18,9 +18,9 @@ std::span<const std::string_view> enum_names(Measure) {
 
 StereoPatch::StereoPatch(const Params& params) : params_(params) {}
 
-ImageUse StereoPatch::image_use() const { return {.mask = params_.use_mask, .depth = false}; }
+ImageUse StereoPatch::do_image_use() const { return {.mask = params_.use_mask, .depth = false}; }
 
-void StereoPatch::prepare(const Observation& observation) {
+void StereoPatch::do_prepare(const Observation& observation) {
   check_color_pair("stereo_patch", observation);
   map_ = stereo_map(observation, 0, 1);
   make_volume(observation, params_, volume_);
@@ -31,39 +31,39 @@ void StereoPatch::check_tiles(const RenderedHypothesis& hypothesis) const {
   check_drawn_tile("stereo_patch", hypothesis, 1, map_.width, map_.height);
 }
 
-double StereoPatch::cost(const RenderedHypothesis& hypothesis) const {
+double StereoPatch::do_cost(const RenderedHypothesis& hypothesis) const {
   check_tiles(hypothesis);
   return 0.0 - sum_similarity(volume_, hypothesis.views[0], hypothesis.views[1], map_,
                               static_cast<float>(params_.r));  // not -0.0
 }
 
-std::unique_ptr<cuda::DeviceObjective> StereoPatch::on_device() const {
+std::unique_ptr<cuda::DeviceObjective> StereoPatch::do_on_device() const {
   return make_device_objective(params_);
 }
 
-std::int64_t StereoPatch::residual_count() const {
+std::int64_t StereoPatch::do_residual_count() const {
   return std::int64_t{volume_.width} * volume_.height;
 }
 
-void StereoPatch::write_residuals(const RenderedHypothesis& hypothesis,
-                                  std::span<float> residuals) const {
-  cost_and_residuals(hypothesis, residuals);
+void StereoPatch::do_write_residuals(const RenderedHypothesis& hypothesis,
+                                     std::span<float> residuals) const {
+  do_cost_and_residuals(hypothesis, residuals);
 }
 
-double StereoPatch::cost_and_residuals(const RenderedHypothesis& hypothesis,
-                                       std::span<float> residuals) const {
+double StereoPatch::do_cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                          std::span<float> residuals) const {
   check_tiles(hypothesis);
   return 0.0 - stereo_patch::write_residuals(volume_, hypothesis.views[0], hypothesis.views[1],
                                              map_, static_cast<float>(params_.r), residuals);
 }
 
-std::span<const int> StereoPatch::pixel_views() const {
+std::span<const int> StereoPatch::do_pixel_views() const {
   static constexpr std::array<int, 1> kViews{0};
   return kViews;
 }
 
-void StereoPatch::write_slopes(const RenderedHypothesis& hypothesis, std::size_t,
-                               std::span<float> residuals, std::span<float> slopes) const {
+void StereoPatch::do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t,
+                                  std::span<float> residuals, std::span<float> slopes) const {
   check_tiles(hypothesis);
   stereo_patch::write_slopes(volume_, hypothesis.views[0], hypothesis.views[1], map_,
                              static_cast<float>(params_.r), residuals, slopes);

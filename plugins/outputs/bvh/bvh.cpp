@@ -18,16 +18,16 @@ class Bvh final : public Output {
       names_.push_back(model_file_name(item.name, "bvh"));
   }
 
-  std::vector<std::string> file_names() const override { return names_; }
-  void begin(OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return names_; }
+  void do_begin(OutputContext& run) override {
     scene_ = &run.scene();
     frame_rate_ = run.frame_rate();
     for (std::size_t m = 0; m < names_.size(); ++m)
       files_.emplace_back(run.file(names_[m]), bvh::joints_of(scene_->items()[m]), frame_rate_);
   }
-  void frame(const Frame& /*frame*/, const Solution& solution) override;
+  void do_frame(const Frame& /*frame*/, const Solution& solution) override;
 
- private:
   void write_line();
 
   std::vector<std::string> names_;  ///< of a file per model
@@ -42,7 +42,7 @@ class Bvh final : public Output {
 /// Writes a frame to the line of its time, because lines have no time of their own. Lines without a
 /// frame, and models that are not seen, keep the last pose. Of two frames on a line, the first
 /// stays. A longer gap than a minute becomes a minute.
-void Bvh::frame(const Frame& /*frame*/, const Solution& solution) {
+void Bvh::do_frame(const Frame& /*frame*/, const Solution& solution) {
   if (lines_ == 0) {
     shown_ = solution.state;
     first_time_ = solution.time;

@@ -22,12 +22,12 @@ class Gltf final : public Output {
             context.config().where(), item.name));
   }
 
-  std::vector<std::string> file_names() const override { return {"track.glb"}; }
-  void begin(OutputContext& run) override;
-  void frame(const Frame& frame, const Solution& solution) override;
-  void finish(bool complete) override;
-
  private:
+  std::vector<std::string> do_file_names() const override { return {"track.glb"}; }
+  void do_begin(OutputContext& run) override;
+  void do_frame(const Frame& frame, const Solution& solution) override;
+  void do_finish(bool complete) override;
+
   std::filesystem::path path_;
   gltf::GlbFile file_;
   std::vector<gltf::ModelNode> models_;
@@ -37,7 +37,7 @@ class Gltf final : public Output {
 };
 
 /// Adds the models below a node that turns the world's axes (y down, z forward) to glTF's.
-void Gltf::begin(OutputContext& run) {
+void Gltf::do_begin(OutputContext& run) {
   path_ = run.file("track.glb");
   scene_ = &run.scene();
   const std::size_t world =
@@ -49,7 +49,7 @@ void Gltf::begin(OutputContext& run) {
   }
 }
 
-void Gltf::frame(const Frame& /*frame*/, const Solution& solution) {
+void Gltf::do_frame(const Frame& /*frame*/, const Solution& solution) {
   if (shown_.size() == 0) shown_ = solution.state;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Scene::Item& item = scene_->items()[m];
@@ -61,7 +61,7 @@ void Gltf::frame(const Frame& /*frame*/, const Solution& solution) {
   times_.push_back(static_cast<float>(solution.time));
 }
 
-void Gltf::finish(bool /*complete*/) {
+void Gltf::do_finish(bool /*complete*/) {
   if (!times_.empty()) {
     const auto times =
         Eigen::RowVectorXf::Map(times_.data(), static_cast<Eigen::Index>(times_.size()));

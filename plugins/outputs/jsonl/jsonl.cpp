@@ -18,19 +18,19 @@ class Jsonl final : public Output {
   };
   explicit Jsonl(const Params& params) : params_(params) {}
 
-  std::vector<std::string> file_names() const override { return {"track.jsonl"}; }
-  void begin(OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return {"track.jsonl"}; }
+  void do_begin(OutputContext& run) override {
     scene_ = &run.scene();
     file_.emplace(run.file("track.jsonl"));
   }
-  void online(const Frame& frame, const Solution& solution) override {
+  void do_online(const Frame& frame, const Solution& solution) override {
     if (params_.online) write(frame, solution);
   }
-  void frame(const Frame& frame, const Solution& solution) override {
+  void do_frame(const Frame& frame, const Solution& solution) override {
     if (!params_.online) write(frame, solution);
   }
 
- private:
   void write(const Frame& frame, const Solution& solution) {
     file_->write(solution_json(*scene_, solution, frame.stamp) + "\n");
   }

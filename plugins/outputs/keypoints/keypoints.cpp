@@ -44,20 +44,20 @@ class Keypoints final : public Output {
           context.config().where()));
   }
 
-  std::vector<std::string> file_names() const override { return {"keypoints.jsonl"}; }
-  void begin(OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return {"keypoints.jsonl"}; }
+  void do_begin(OutputContext& run) override {
     run_ = &run;
     file_.emplace(run.file("keypoints.jsonl"));
   }
-  void frame(const Frame& frame, const Solution& solution) override;
+  void do_frame(const Frame& frame, const Solution& solution) override;
 
- private:
   std::vector<HandItem> hands_;
   OutputContext* run_ = nullptr;
   std::optional<TextFile> file_;
 };
 
-void Keypoints::frame(const Frame& frame, const Solution& solution) {
+void Keypoints::do_frame(const Frame& frame, const Solution& solution) {
   using Json = nlohmann::ordered_json;
   constexpr double kOpenPoseVersion = 1.3;  // of its JSON files
   const Scene& scene = run_->scene();

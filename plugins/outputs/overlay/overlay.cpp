@@ -74,13 +74,13 @@ class Overlay final : public Output {
   };
   explicit Overlay(const Params& params) : params_(params) {}
 
-  std::vector<std::string> file_names() const override { return {"overlay.mp4"}; }
-  void begin(OutputContext& run) override;
-  void online(const Frame& frame, const Solution& solution) override;
-  void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
-  void finish(bool complete) override;
-
  private:
+  std::vector<std::string> do_file_names() const override { return {"overlay.mp4"}; }
+  void do_begin(OutputContext& run) override;
+  void do_online(const Frame& frame, const Solution& solution) override;
+  void do_frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
+  void do_finish(bool complete) override;
+
   /// Draws the solution on the picture of one view.
   void draw(const Frame& frame, const Solution& solution, std::size_t view, cv::Mat image);
 
@@ -93,7 +93,7 @@ class Overlay final : public Output {
   std::unique_ptr<VideoWriter> writer_;
 };
 
-void Overlay::begin(OutputContext& run) {
+void Overlay::do_begin(OutputContext& run) {
   file_ = run.file("overlay.mp4");
   run_ = &run;
   renderer_ = &run.renderer();
@@ -119,7 +119,7 @@ void Overlay::draw(const Frame& frame, const Solution& solution, std::size_t vie
   draw_sigmas(image, cameras_[view], scene.landmarks(solution.state), solution.sigma);
 }
 
-void Overlay::online(const Frame& frame, const Solution& solution) {
+void Overlay::do_online(const Frame& frame, const Solution& solution) {
   constexpr int kGrey = 40;
   cv::Mat image(size_, CV_8UC3, cv::Scalar::all(kGrey));
   std::string caption =
@@ -140,7 +140,7 @@ void Overlay::online(const Frame& frame, const Solution& solution) {
   writer_->write(image);  // finish() tells what went wrong: the other results are whole
 }
 
-void Overlay::finish(bool /*complete*/) {
+void Overlay::do_finish(bool /*complete*/) {
   const std::string why = writer_->finish();
   if (why.empty()) return;
   throw OutputError(

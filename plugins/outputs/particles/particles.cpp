@@ -35,19 +35,19 @@ class Particles final : public Output {
   };
   Particles(const Params& params, const PluginContext& context);
 
-  std::vector<std::string> file_names() const override { return {"particles_#." + extension()}; }
-  void begin(OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return {"particles_#." + extension()}; }
+  void do_begin(OutputContext& run) override {
     run_ = &run;
     run.renderer();  // frames are drawn in another thread
   }
-  bool wants_search(const Frame& frame) const override {
+  bool do_wants_search(const Frame& frame) const override {
     if (params_.every) return frame.index % *params_.every == 0;
     return std::ranges::find(params_.frames, frame.index) != params_.frames.end();
   }
-  void search(const Frame& frame, const Solution& solution, const SearchRecord& record) override;
-  void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
+  void do_search(const Frame& frame, const Solution& solution, const SearchRecord& record) override;
+  void do_frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
 
- private:
   std::string extension() const {
     return std::string(enum_names(params_.format)[static_cast<std::size_t>(params_.format)]);
   }
@@ -69,7 +69,8 @@ Particles::Particles(const Params& params, const PluginContext& context) : param
                                     config.where_key("frames"), frame));
 }
 
-void Particles::search(const Frame& frame, const Solution& solution, const SearchRecord& record) {
+void Particles::do_search(const Frame& frame, const Solution& solution,
+                          const SearchRecord& record) {
   if (record.observation.views.empty()) return;  // nothing was found
   Renderer& renderer = run_->renderer();
   Figure figure(fmt::format("frame {}   {}   cost {:.4g}   {} evaluations", frame.index,

@@ -37,25 +37,25 @@ class Stream final : public Output {
   Stream(const Params& params, const PluginContext& context)
       : params_(params), address_(checked(params, context.config())) {}
 
-  std::vector<std::string> file_names() const override { return {}; }
-  void begin(OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return {}; }
+  void do_begin(OutputContext& run) override {
     scene_ = &run.scene();
     constexpr std::chrono::seconds kHangs{5};
     server_.emplace(address_, greeting(run, params_.online),
                     Patience{static_cast<std::size_t>(params_.queue), kHangs});
   }
-  void online(const Frame& frame, const Solution& solution) override {
+  void do_online(const Frame& frame, const Solution& solution) override {
     if (params_.online) send(frame, solution);
   }
-  void frame(const Frame& frame, const Solution& solution) override {
+  void do_frame(const Frame& frame, const Solution& solution) override {
     if (!params_.online) send(frame, solution);
   }
-  void finish(bool complete) override {
+  void do_finish(bool complete) override {
     constexpr std::chrono::milliseconds kWait{1000}, kInterrupted{300};
     server_->finish(complete ? kWait : kInterrupted);
   }
 
- private:
   static Address checked(const Params& params, const ConfigNode& config);
   void send(const Frame& frame, const Solution& solution);
 

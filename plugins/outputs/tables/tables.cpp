@@ -76,23 +76,23 @@ class Tables final : public Output {
   };
   explicit Tables(const Params&) {}
 
-  std::vector<std::string> file_names() const override {
+ private:
+  std::vector<std::string> do_file_names() const override {
     return {"track.csv", "joints.csv", "online.csv", "online_joints.csv"};
   }
-  void begin(OutputContext& run) override {
+  void do_begin(OutputContext& run) override {
     run_ = &run;
     track_.emplace(run, "track.csv", "joints.csv", run.columns());
     if (run.fixed_lag())
       online_.emplace(run, "online.csv", "online_joints.csv", std::vector<std::string>());
   }
-  void online(const Frame& frame, const Solution& solution) override {
+  void do_online(const Frame& frame, const Solution& solution) override {
     if (online_) online_->add(frame, solution, {});
   }
-  void frame(const Frame& frame, const Solution& solution) override {
+  void do_frame(const Frame& frame, const Solution& solution) override {
     track_->add(frame, solution, run_->values(frame, solution));
   }
 
- private:
   OutputContext* run_ = nullptr;
   std::optional<Pair> track_, online_;
 };

@@ -25,8 +25,9 @@ class Tum final : public Output {
       names_.push_back(model_file_name(item.name, "tum"));
   }
 
-  std::vector<std::string> file_names() const override { return names_; }
-  void begin(OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return names_; }
+  void do_begin(OutputContext& run) override {
     scene_ = &run.scene();
     for (std::size_t m = 0; m < names_.size(); ++m) {
       files_.emplace_back(run.file(names_[m]));
@@ -35,7 +36,7 @@ class Tum final : public Output {
                       scene_->items()[m].name));
     }
   }
-  void frame(const Frame& frame, const Solution& solution) override {
+  void do_frame(const Frame& frame, const Solution& solution) override {
     const std::string time =
         frame.stamp ? stamp_text(*frame.stamp) : fmt::format("{}", solution.time);
     for (std::size_t m = 0; m < files_.size(); ++m)
@@ -43,7 +44,6 @@ class Tum final : public Output {
         files_[m].write(pose_line(time, scene_->part(scene_->items()[m], solution.state)));
   }
 
- private:
   std::vector<std::string> names_;  ///< of a file per model
   std::vector<TextFile> files_;
   const Scene* scene_ = nullptr;

@@ -90,11 +90,12 @@ class LiveCamera final : public Source {
     last_pair_ = now();
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return rate_; }
-  bool live() const override { return true; }
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return rate_; }
+  bool do_live() const override { return true; }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     const std::int64_t give_up = last_pair_ + nanoseconds(params_.give_up);
     const std::int64_t deadline = std::min(now() + nanoseconds(params_.timeout), give_up);
     const std::vector<Picture> pair = pictures().take(last_stamp_, tolerance_, deadline);
@@ -120,13 +121,13 @@ class LiveCamera final : public Source {
     return frame;
   }
 
-  std::vector<std::string> notes() const override {
+  std::vector<std::string> do_notes() const override {
     std::vector<std::string> notes = notes_;
     for (std::string& setting : refused()) notes.push_back(std::move(setting));
     return notes;
   }
 
-  std::vector<std::string> statistics() const override {
+  std::vector<std::string> do_statistics() const override {
     std::string text = fmt::format("camera: {} pairs", pairs_);
     if (pairs_ > 1) text += fmt::format(" at {:.1f} per second", pair_rate());
     if (!offsets_.empty()) {
@@ -147,7 +148,6 @@ class LiveCamera final : public Source {
     return lines;
   }
 
- private:
   PictureQueues& pictures() const { return capture_->pictures(); }
 
   /// Returns the size of a view's pictures that the scene asks for; zeros if it does not.

@@ -26,14 +26,15 @@ class DepthFromStereo final : public Source {
         matcher_(params, pair_, context.config().where()),
         cameras_{pair_.camera()} {}
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return source_->frame_rate(); }
-  std::optional<int> frame_count() const override { return source_->frame_count(); }
-  bool live() const override { return source_->live(); }
-  std::vector<std::string> notes() const override { return source_->notes(); }
-  std::vector<std::string> statistics() const override { return source_->statistics(); }
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return source_->frame_rate(); }
+  std::optional<int> do_frame_count() const override { return source_->frame_count(); }
+  bool do_live() const override { return source_->live(); }
+  std::vector<std::string> do_notes() const override { return source_->notes(); }
+  std::vector<std::string> do_statistics() const override { return source_->statistics(); }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     std::optional<Frame> frame = source_->next();
     if (!frame || frame->views.empty()) return frame;
     check(*frame);
@@ -47,7 +48,6 @@ class DepthFromStereo final : public Source {
     return frame;
   }
 
- private:
   void check(const Frame& frame) const {
     for (std::size_t i = 0; i < 2; ++i) {
       const cv::Mat* color = i < frame.views.size() ? &frame.views[i].color : nullptr;

@@ -64,16 +64,17 @@ class ImageSequence : public Source {
     for (std::size_t i = 0; i < layers_.size(); ++i) take_image_size(i);
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
-      truth_.expect_some(first_, params.step, frame_count());
+      truth_.expect_some(first_, params.step, do_frame_count());
     }
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  std::vector<std::string> notes() const override { return notes_; }
-  double frame_rate() const override { return rate_; }
-  std::optional<int> frame_count() const override { return static_cast<int>(lists_[0].size()); }
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  std::vector<std::string> do_notes() const override { return notes_; }
+  double do_frame_rate() const override { return rate_; }
+  std::optional<int> do_frame_count() const override { return static_cast<int>(lists_[0].size()); }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     if (decoded_.empty()) decode();
     if (decoded_.empty()) return std::nullopt;
     Decoded next = std::move(decoded_.front());
@@ -82,7 +83,6 @@ class ImageSequence : public Source {
     return std::move(next.frame);
   }
 
- private:
   struct Decoded {
     Frame frame = {};
     std::exception_ptr error = nullptr;

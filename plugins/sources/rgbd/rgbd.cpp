@@ -114,16 +114,19 @@ class Rgbd final : public Source {
                     [&](const auto& file) { return read_depth(file, unit()); });
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
-      truth_.expect_some(params.start, 1, frame_count());
+      truth_.expect_some(params.start, 1, do_frame_count());
     }
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  std::vector<std::string> notes() const override { return notes_; }
-  double frame_rate() const override { return params_.frame_rate.value_or(rate_of(color_)); }
-  std::optional<int> frame_count() const override { return static_cast<int>(end_) - params_.start; }
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  std::vector<std::string> do_notes() const override { return notes_; }
+  double do_frame_rate() const override { return params_.frame_rate.value_or(rate_of(color_)); }
+  std::optional<int> do_frame_count() const override {
+    return static_cast<int>(end_) - params_.start;
+  }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     if (next_ == end_) return std::nullopt;
     const std::size_t i = next_++;
     Frame frame;
@@ -138,7 +141,6 @@ class Rgbd final : public Source {
     return frame;
   }
 
- private:
   std::string list_name(const std::string& list) const { return (params_.folder / list).string(); }
   int bits() const { return params_.bits.value_or(16); }
   double unit() const { return 1 / params_.depth_factor; }

@@ -131,17 +131,18 @@ class Synthetic final : public Source {
     frames_ = params.frames > 0 ? params.frames : frames_of_motion(context.config().where());
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  std::vector<std::string> notes() const override { return notes_; }
-  double frame_rate() const override { return frame_rate_; }
-  std::optional<int> frame_count() const override {
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  std::vector<std::string> do_notes() const override { return notes_; }
+  double do_frame_rate() const override { return frame_rate_; }
+  std::optional<int> do_frame_count() const override {
     int count = 0;
     for (int n = 0; n < frames_; n = faults_.next_delivered(n + 1)) ++count;
     return count;
   }
 
   /// Numbers frames as they arrive; after missing ones the time goes on as it would have.
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     if (next_ >= frames_) return std::nullopt;
     const int number = next_;
     next_ = faults_.next_delivered(number + 1);
@@ -172,7 +173,6 @@ class Synthetic final : public Source {
     return frame;
   }
 
- private:
   /// Returns the states of the stage at which else a picture is rendered during an exposure about
   /// `time`: evenly spread, the more the farther a landmark moves. `state` is that of `time`.
   std::vector<Eigen::VectorXd> other_states(double time, const Eigen::VectorXd& state) const {

@@ -45,16 +45,17 @@ class Video : public Source {
     }
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
-      truth_.expect_some(*frames_.front().number, params.step, frame_count());
+      truth_.expect_some(*frames_.front().number, params.step, do_frame_count());
     }
   }
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  std::vector<std::string> notes() const override { return notes_; }
-  double frame_rate() const override { return rate_ / params_.step; }
-  std::optional<int> frame_count() const override { return static_cast<int>(frames_.size()); }
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  std::vector<std::string> do_notes() const override { return notes_; }
+  double do_frame_rate() const override { return rate_ / params_.step; }
+  std::optional<int> do_frame_count() const override { return static_cast<int>(frames_.size()); }
 
-  std::vector<std::string> statistics() const override {
+  std::vector<std::string> do_statistics() const override {
     std::vector<std::string> lines;
     if (!ended_) return lines;
     for (const VideoInfo& info : infos_)
@@ -67,7 +68,7 @@ class Video : public Source {
     return lines;
   }
 
-  std::optional<Frame> next() override {
+  std::optional<Frame> do_next() override {
     ended_ = next_ == frames_.size();
     if (ended_) return std::nullopt;
     const TimelineFrame& moment = frames_[next_];
@@ -89,7 +90,6 @@ class Video : public Source {
     return frame;
   }
 
- private:
   /// Names the files, and how a file of both views holds them.
   std::vector<std::filesystem::path> choose_files(const std::string& where) {
     const bool one = !params_.side_by_side.empty();

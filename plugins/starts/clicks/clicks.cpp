@@ -25,7 +25,8 @@ class Clicks final : public Start {
   };
   explicit Clicks(const Params& params) : params_(params) {}
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+ private:
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     const ClickedFrame clicked = read_clicks(ConfigNode::load(params_.file));
     const std::string where = params_.file.string();
     if (!clicked.pictures.empty() && !context.frame) return std::nullopt;
@@ -36,7 +37,6 @@ class Clicks final : public Start {
     return fit.state;
   }
 
- private:
   Params params_;
 };
 

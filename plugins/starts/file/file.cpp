@@ -32,7 +32,8 @@ class File final : public Start {
   };
   explicit File(const Params& params) : params_(params) {}
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+ private:
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     const Scene& scene = context.scene;
     const std::string suffix = params_.file.extension().string();
     const Eigen::VectorXd state =
@@ -43,7 +44,6 @@ class File final : public Start {
     return state;
   }
 
- private:
   Params params_;
 };
 

@@ -27,13 +27,13 @@ class Global final : public Start {
   };
   explicit Global(const Params& params) : params_(params) {}
 
-  bool looks() const override { return true; }
+ private:
+  bool do_looks() const override { return true; }
 
-  void find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
+  void do_find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
     if (context.search) context.search->find(params_.settings, take);
   }
 
- private:
   Params params_;
 };
 

@@ -47,11 +47,12 @@ class HandLandmarks final : public Start {
     }
   }
 
-  bool looks() const override { return true; }
+ private:
+  bool do_looks() const override { return true; }
 
-  bool recognizes(std::size_t model) const override { return models_.at(model).has_value(); }
+  bool do_recognizes(std::size_t model) const override { return models_.at(model).has_value(); }
 
-  void find(const StartContext& context, std::size_t model, const TakePose& take) override {
+  void do_find(const StartContext& context, std::size_t model, const TakePose& take) override {
     const Scene::Item& item = context.scene.items().at(model);
     const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return;
@@ -67,7 +68,7 @@ class HandLandmarks final : public Start {
     }
   }
 
-  std::optional<double> size(const StartContext& context, std::size_t model) override {
+  std::optional<double> do_size(const StartContext& context, std::size_t model) override {
     const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return std::nullopt;
     look_at(*context.frame, context.cameras, false);
@@ -77,7 +78,6 @@ class HandLandmarks final : public Start {
     return relative_size(*context.scene.items().at(model).model, *hand, *pair);
   }
 
- private:
   /// What was looked at last.
   struct Seen {
     int frame = -1;

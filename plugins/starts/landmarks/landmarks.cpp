@@ -58,7 +58,8 @@ class Landmarks final : public Start {
   };
   explicit Landmarks(const Params& params) : params_(params) {}
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+ private:
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     const Scene& scene = context.scene;
     const Eigen::Matrix3Xd landmarks = row(scene).landmarks;
     if (landmarks.array().isNaN().all()) fail("knows no landmark of the scene");
@@ -76,7 +77,6 @@ class Landmarks final : public Start {
     return state;
   }
 
- private:
   [[noreturn]] void fail(const std::string& what) const {
     throw DataError(fmt::format("{}: frame {} {}", params_.file.string(), params_.frame, what));
   }

@@ -10,7 +10,8 @@ class Rest final : public Start {
   };
   explicit Rest(const Params&) {}
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+ private:
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     return context.scene.rest_state();
   }
 };

@@ -12,7 +12,8 @@ class Truth final : public Start {
   };
   explicit Truth(const Params&) {}
 
-  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+ private:
+  std::optional<Eigen::VectorXd> do_state(const StartContext& context) override {
     const Frame* frame = context.frame;
     if (!frame) return std::nullopt;
     const bool has_state = frame->truth && frame->truth->state.size() > 0;

@@ -1,5 +1,8 @@
 #include "setting.hpp"
 
+#include "hypotrack/error.hpp"
+#include "report.hpp"
+
 namespace hypotrack::contract {
 
 RenderedHypothesis Setting::drawn(std::size_t i) const {
@@ -10,9 +13,17 @@ RenderedHypothesis Setting::drawn(std::size_t i) const {
   return rendered;
 }
 
+double Setting::cost_by(const Objective& other, std::size_t i) const {
+  try {
+    return other.cost(drawn(i));
+  } catch (const PluginError& error) {
+    throw Violation(at(i) + ": " + error.what());
+  }
+}
+
 std::vector<double> Setting::costs_by(const Objective& other) const {
   std::vector<double> costs;
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) costs.push_back(other.cost(drawn(i)));
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) costs.push_back(cost_by(other, i));
   return costs;
 }
 

@@ -20,9 +20,11 @@ struct Setting {
   void prepare() { objective->prepare(observation); }
   /// Returns hypothesis `i` as the objective takes it.
   RenderedHypothesis drawn(std::size_t i) const;
-  double cost(std::size_t i) const { return objective->cost(drawn(i)); }
+  /// Returns the cost of hypothesis `i`. Throws a Violation if the objective's is none.
+  double cost(std::size_t i) const { return cost_by(*objective, i); }
   /// Returns the costs of all hypotheses, in their order.
   std::vector<double> costs() const { return costs_by(*objective); }
+  double cost_by(const Objective& other, std::size_t i) const;
   /// Returns the costs by another object of the plugin.
   std::vector<double> costs_by(const Objective& other) const;
   /// Returns the names of hypothesis and observation, for messages.

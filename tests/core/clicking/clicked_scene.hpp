@@ -14,7 +14,9 @@ namespace hypotrack::test {
 class ClearHand final : public Model {
  public:
   ClearHand() : Model(make_test_hand()) {}
-  std::vector<std::string> clear_landmarks() const override {
+
+ private:
+  std::vector<std::string> do_clear_landmarks() const override {
     return {"wrist", "index_tip", "no_landmark", "thumb_tip", "middle_tip", "ring_tip"};
   }
 };

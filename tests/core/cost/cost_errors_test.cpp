@@ -14,14 +14,13 @@ using CostErrors = CostTest;
 TEST_F(CostErrors, NamesATermThatReturnsNan) {
   const auto good = undrawn([](const RenderedHypothesis&) { return 1.0; });
   const auto bad = undrawn([](const RenderedHypothesis&) { return std::nan(""); });
-  const std::string rest =
-      " of the batch; this is a bug in the objective: costs are numbers or +infinity";
-  EXPECT_THAT(message({{1, good, "skin"}, {1, bad, "stereo"}}),
-              testing::AllOf(testing::StartsWith("evaluate: objective stereo returned NaN for "
-                                                 "hypothesis "),
-                             testing::EndsWith(rest)));
-  EXPECT_THAT(message({{1, good}, {1, bad}}),
-              testing::StartsWith("evaluate: objective number 2 returned NaN"));
+  EXPECT_EQ(message<PluginError>({{1, good, "skin"}, {1, bad, "stereo"}}),
+            "the objective: the cost of a hypothesis is nan, expected a number or +infinity; this "
+            "is a bug in the objective");
+  bad->set_label("a.yaml:3:1: objective 'stereo'", "stereo.so");
+  EXPECT_THAT(message<PluginError>({{1, good}, {1, bad}}),
+              testing::StartsWith("a.yaml:3:1: objective 'stereo' (stereo.so): the cost of a "
+                                  "hypothesis is nan"));
   const auto up = undrawn([](const RenderedHypothesis&) { return kInfinity; });
   EXPECT_THAT(message({{1, up}, {-1, up, "other"}}),
               testing::StartsWith("evaluate: objective other adds an infinity to its opposite"));
@@ -73,7 +72,8 @@ TEST_F(CostErrors, RefusesPosesOfTheWrongSize) {
     FAIL();
   } catch (const PluginError& error) {
     EXPECT_STREQ(error.what(),
-                 "a model that poses itself returned 1499 vertices, expected the 1500 of its mesh");
+                 "the model: its pose has 1499 vertices, expected 1500 as in its data; this is a "
+                 "bug in the model");
   }
 }
 

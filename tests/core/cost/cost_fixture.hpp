@@ -25,13 +25,14 @@ class Term : public Objective {
  public:
   using Cost = std::function<double(const RenderedHypothesis&)>;
   Term(bool draws, Cost cost) : draws_(draws), cost_(std::move(cost)) {}
-  bool needs_rendering() const override { return draws_; }
-  void prepare(const Observation& observation) override { frame = observation.frame; }
-  double cost(const RenderedHypothesis& hypothesis) const override { return cost_(hypothesis); }
 
   int frame = -1;
 
  private:
+  bool do_needs_rendering() const override { return draws_; }
+  void do_prepare(const Observation& observation) override { frame = observation.frame; }
+  double do_cost(const RenderedHypothesis& hypothesis) const override { return cost_(hypothesis); }
+
   bool draws_;
   Cost cost_;
 };
@@ -40,17 +41,19 @@ class Term : public Objective {
 class SquaresOfState : public Objective, public ResidualTerm {
  public:
   explicit SquaresOfState(std::int64_t count) : count_(count) {}
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     double sum = 0;
     for (const double x : hypothesis.state.first(static_cast<std::size_t>(count_))) sum += x * x;
     return sum;
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return count_; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return count_; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override {
     for (std::size_t i = 0; i < residuals.size(); ++i)
       residuals[i] = static_cast<float>(hypothesis.state[i]);
   }
@@ -115,14 +118,15 @@ class CostTest : public testing::Test {
 class SelfPosed : public Model {
  public:
   explicit SelfPosed(int missing = 0) : Model(make_test_hand()), missing_(missing) {}
-  bool poses_itself() const override { return true; }
-  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+
+ private:
+  bool do_poses_itself() const override { return true; }
+  void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     Model::pose(parameters, vertices, landmarks);
     vertices.conservativeResize(3, vertices.cols() - missing_);
   }
 
- private:
   int missing_;
 };
 

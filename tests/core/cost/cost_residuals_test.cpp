@@ -12,7 +12,7 @@ using CostResiduals = CostTest;
 
 struct DrawnSquares final : SquaresOfState {
   using SquaresOfState::SquaresOfState;
-  bool needs_rendering() const override { return true; }
+  bool do_needs_rendering() const override { return true; }
 };
 
 TEST_F(CostResiduals, ResidualsOfAllTermsAddUpToTheirWeightedSum) {

@@ -79,8 +79,12 @@ TEST_F(CostTest, PreparesEveryTerm) {
 class Onlooker final : public Objective {
  public:
   explicit Onlooker(ImageUse use) : use_(use) {}
-  ImageUse image_use() const override { return use_; }
-  void prepare(const Observation& observation) override {
+
+  std::string seen;
+
+ private:
+  ImageUse do_image_use() const override { return use_; }
+  void do_prepare(const Observation& observation) override {
     seen.clear();
     for (const TileView& view : observation.views) {
       seen += view.color.empty() ? '-' : 'c';
@@ -88,11 +92,8 @@ class Onlooker final : public Objective {
       seen += view.depth.empty() ? '-' : 'd';
     }
   }
-  double cost(const RenderedHypothesis&) const override { return 0; }
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
 
-  std::string seen;
-
- private:
   ImageUse use_;
 };
 

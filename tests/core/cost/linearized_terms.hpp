@@ -17,13 +17,14 @@ class DepthPattern : public Objective, public ResidualTerm {
   DepthPattern(float per_inverse_depth, float uncovered)
       : factor_(per_inverse_depth), uncovered_(uncovered) {}
 
-  void prepare(const Observation& observation) override {
+ protected:
+  void do_prepare(const Observation& observation) override {
     count_ = 0;
     for (const TileView& view : observation.views) {
       count_ += std::int64_t{view.camera.width} * view.camera.height;
     }
   }
-  double cost(const RenderedHypothesis& hypothesis) const override {
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     double sum = 0;
     for (const DepthTile& tile : hypothesis.views) {
       for (int y = 0; y < tile.height; ++y) {
@@ -36,10 +37,10 @@ class DepthPattern : public Objective, public ResidualTerm {
     return sum;
   }
 
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return count_; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return count_; }
+  void do_write_residuals(const RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override {
     std::size_t i = 0;
     for (const DepthTile& tile : hypothesis.views) {
       for (int y = 0; y < tile.height; ++y) {
@@ -47,10 +48,10 @@ class DepthPattern : public Objective, public ResidualTerm {
       }
     }
   }
-  bool has_slopes() const override { return true; }
-  std::span<const int> pixel_views() const override { return kViews; }
-  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
-                    std::span<float> slopes) const override {
+  bool do_has_slopes() const override { return true; }
+  std::span<const int> do_pixel_views() const override { return kViews; }
+  void do_write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                       std::span<float> residuals, std::span<float> slopes) const override {
     const DepthTile& tile = hypothesis.views[i];
     std::size_t at = 0;
     for (int y = 0; y < tile.height; ++y) {
@@ -78,14 +79,15 @@ class DepthPattern : public Objective, public ResidualTerm {
 /// Residuals that are the first three numbers of a state.
 class Position : public Objective, public ResidualTerm {
  public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& h) const override {
     return h.state[0] * h.state[0] + h.state[1] * h.state[1] + h.state[2] * h.state[2];
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 3; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 3; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     for (std::size_t i = 0; i < 3; ++i) residuals[i] = static_cast<float>(h.state[i]);
   }
 };

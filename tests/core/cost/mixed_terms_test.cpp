@@ -17,27 +17,32 @@ namespace {
 class WithoutSlopes : public DepthPattern {
  public:
   using DepthPattern::DepthPattern;
-  bool has_slopes() const override { return false; }
+
+ protected:
+  bool do_has_slopes() const override { return false; }
 };
 
 /// Says where a point of a model should be: its rotated place, with a Jacobian by the quaternion.
 class PointOfModel : public Objective, public ResidualTerm {
  public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
+  mutable std::atomic<int> jacobians = 0;
+
+ protected:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& h) const override {
     return residual(h.state).squaredNorm();
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 3; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 3; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     Eigen::Map<Eigen::Vector3f>(residuals.data()) = residual(h.state).cast<float>();
   }
-  bool has_jacobian() const override { return true; }
-  void write_jacobian(const RenderedHypothesis& h, std::span<float> residuals,
-                      Jacobian& jacobian) const override {
+  bool do_has_jacobian() const override { return true; }
+  void do_write_jacobian(const RenderedHypothesis& h, std::span<float> residuals,
+                         Jacobian& jacobian) const override {
     ++jacobians;
-    write_residuals(h, residuals);
+    do_write_residuals(h, residuals);
     const double w = h.state[3];
     const Eigen::Vector3d v(h.state[4], h.state[5], h.state[6]);
     // Of (w^2 - v.v) p + 2 w v x p + 2 v (v.p): the rotated point, without normalising.
@@ -51,8 +56,6 @@ class PointOfModel : public Objective, public ResidualTerm {
     }
   }
 
-  mutable std::atomic<int> jacobians = 0;
-
  private:
   static inline const Eigen::Vector3d kPoint{0.3, -0.2, 0.5};
 
@@ -65,25 +68,28 @@ class PointOfModel : public Objective, public ResidualTerm {
 /// The point of a model, for hypotheses that are drawn.
 class DrawnPoint final : public PointOfModel {
  public:
-  bool needs_rendering() const override { return true; }
-  void write_jacobian(const RenderedHypothesis& h, std::span<float> residuals,
-                      Jacobian& jacobian) const override {
-    drawn = h.views.size() == 2 && h.views[0].x1 > h.views[0].x0;
-    PointOfModel::write_jacobian(h, residuals, jacobian);
-  }
   mutable std::atomic<bool> drawn = false;
+
+ private:
+  bool do_needs_rendering() const override { return true; }
+  void do_write_jacobian(const RenderedHypothesis& h, std::span<float> residuals,
+                         Jacobian& jacobian) const override {
+    drawn = h.views.size() == 2 && h.views[0].x1 > h.views[0].x0;
+    PointOfModel::do_write_jacobian(h, residuals, jacobian);
+  }
 };
 
 /// Is infeasible beyond a place.
 class Fenced final : public WithoutSlopes {
  public:
   explicit Fenced(double fence) : WithoutSlopes(0.2f, 0.5f), fence_(fence) {}
-  double cost(const RenderedHypothesis& h) const override {
-    if (h.state[0] > fence_) return std::numeric_limits<double>::infinity();
-    return WithoutSlopes::cost(h);
-  }
 
  private:
+  double do_cost(const RenderedHypothesis& h) const override {
+    if (h.state[0] > fence_) return std::numeric_limits<double>::infinity();
+    return WithoutSlopes::do_cost(h);
+  }
+
   double fence_;
 };
 

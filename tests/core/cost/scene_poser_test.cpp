@@ -16,9 +16,11 @@ namespace {
 class Mover final : public Model {
  public:
   Mover() : Model(test::make_test_box()) {}
-  bool poses_itself() const override { return true; }
-  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+
+ private:
+  bool do_poses_itself() const override { return true; }
+  void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     vertices = (world_from_model(parameters).cast<float>() * data().mesh.vertices).eval();
     vertices.row(1) *= 1.5f;
     landmarks.resize(3, 0);

@@ -43,11 +43,12 @@ class OnDevice final : public cuda::DeviceObjective {
 class PositionOnDevice final : public Position {
  public:
   explicit PositionOnDevice(bool residuals) : residuals_(residuals) {}
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+
+ private:
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return std::make_unique<OnDevice>(residuals_);
   }
 
- private:
   bool residuals_;
 };
 
@@ -55,11 +56,12 @@ class PositionOnDevice final : public Position {
 class FencedPosition final : public Position {
  public:
   FencedPosition(double fence, double beyond) : fence_(fence), beyond_(beyond) {}
-  double cost(const RenderedHypothesis& h) const override {
-    return h.state[0] > fence_ ? beyond_ : Position::cost(h);
-  }
 
  private:
+  double do_cost(const RenderedHypothesis& h) const override {
+    return h.state[0] > fence_ ? beyond_ : Position::do_cost(h);
+  }
+
   double fence_, beyond_;
 };
 
@@ -67,13 +69,16 @@ class FencedPosition final : public Position {
 class Watching final : public Position {
  public:
   explicit Watching(bool color) : color_(color) {}
-  ImageUse image_use() const override { return {.color = color_, .mask = false, .depth = false}; }
-  void prepare(const Observation& observation) override {
-    images = !observation.views[0].color.empty();
-  }
   bool images = false;
 
  private:
+  ImageUse do_image_use() const override {
+    return {.color = color_, .mask = false, .depth = false};
+  }
+  void do_prepare(const Observation& observation) override {
+    images = !observation.views[0].color.empty();
+  }
+
   bool color_;
 };
 

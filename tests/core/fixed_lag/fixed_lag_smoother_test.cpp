@@ -31,24 +31,25 @@ class Readings final : public Objective, public ResidualTerm {
   };
   explicit Readings(std::vector<Reading> frames, bool draws = false)
       : frames_(std::move(frames)), draws_(draws) {}
-  bool needs_rendering() const override { return draws_; }
-  void prepare(const Observation& seen) override {
+  bool no_motion_prior() const { return no_motion_prior_; }
+
+ private:
+  bool do_needs_rendering() const override { return draws_; }
+  void do_prepare(const Observation& seen) override {
     now_ = frames_[static_cast<std::size_t>(seen.frame)];
     no_motion_prior_ = seen.context.no_motion_prior;
   }
-  bool no_motion_prior() const { return no_motion_prior_; }
-  double cost(const RenderedHypothesis& h) const override {
+  double do_cost(const RenderedHypothesis& h) const override {
     double sum = 0;
     for (const double r : of(h)) sum += r * r;
     return sum;
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 2; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 2; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     for (std::size_t i = 0; i < 2; ++i) residuals[i] = static_cast<float>(of(h)[i]);
   }
 
- private:
   /// In units of a millimetre and of a mrad.
   std::array<double, 2> of(const RenderedHypothesis& h) const {
     const Eigen::Quaterniond q(h.state[3], h.state[4], h.state[5], h.state[6]);
@@ -246,8 +247,9 @@ TEST(FixedLagSmoother, RefusesSettingsThatDoNotFit) {
 /// A cost without residuals.
 class NoSquares final : public Objective {
  public:
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis&) const override { return 0; }
+ private:
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
 };
 
 TEST(FixedLagSmoother, RefusesATermWithoutResidualsByItsName) {

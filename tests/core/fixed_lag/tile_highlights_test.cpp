@@ -86,17 +86,19 @@ TEST(TileHighlights, LearnsNothingFromFramesThatWereNotSeenOrHaveNoColour) {
 /// as another.
 class Differing final : public Objective, public ResidualTerm {
  public:
-  void prepare(const Observation& seen) override {
+  std::vector<double> differences;
+
+ private:
+  void do_prepare(const Observation& seen) override {
     const auto brightness = [&](std::size_t i) { return cv::mean(seen.views[i].color)[1]; };
     differences.push_back(brightness(1) - brightness(0));
   }
-  double cost(const RenderedHypothesis&) const override { return 0; }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 1; }
-  void write_residuals(const RenderedHypothesis&, std::span<float> residuals) const override {
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 1; }
+  void do_write_residuals(const RenderedHypothesis&, std::span<float> residuals) const override {
     residuals[0] = 0;
   }
-  std::vector<double> differences;
 };
 
 TEST(FixedLagSmoother, LooksAtTilesWithoutHighlightsWhereItIsToldTo) {

@@ -183,9 +183,11 @@ TEST(Skinning, MovesEverythingWithTheRoot) {
 class Balloon : public Model {
  public:
   Balloon() : Model(test::make_test_box()) {}
-  bool poses_itself() const override { return true; }
-  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+
+ protected:
+  bool do_poses_itself() const override { return true; }
+  void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     vertices = 2 * data().mesh.vertices;
     landmarks = Eigen::Matrix3Xd::Constant(3, 3, parameters[0]);
   }
@@ -202,13 +204,14 @@ TEST(PosesItself, OtherNumbersOfVerticesOrLandmarksThanItsDataAreRefused) {
   class Wrong final : public Balloon {
    public:
     Wrong(int vertices, int landmarks) : vertices_(vertices), landmarks_(landmarks) {}
-    void pose(std::span<const double>, Eigen::Matrix3Xf& vertices,
-              Eigen::Matrix3Xd& landmarks) const override {
+
+   private:
+    void do_pose(std::span<const double>, Eigen::Matrix3Xf& vertices,
+                 Eigen::Matrix3Xd& landmarks) const override {
       vertices.setZero(3, vertices_);
       landmarks.setZero(3, landmarks_);
     }
 
-   private:
     int vertices_, landmarks_;
   };
   const auto count = static_cast<int>(Balloon().data().mesh.vertices.cols());

@@ -27,26 +27,6 @@ class Diary final : public Output {
  public:
   explicit Diary(std::string name) : names_{std::move(name)} {}
 
-  std::vector<std::string> file_names() const override { return names_; }
-  void begin(OutputContext& run) override {
-    if (draws) run.renderer();
-    file_.emplace(run.file(asks_for.empty() ? names_.front() : asks_for));
-    file_->write("begin");
-  }
-  void online(const Frame& frame, const Solution&) override {
-    file_->write(" online " + std::to_string(frame.index));
-  }
-  void frame(const Frame& frame, const Solution&) override {
-    if (frame.index == fails_at) throw OutputError("the diary is full");
-    file_->write(" frame " + std::to_string(frame.index));
-  }
-  void finish(bool complete) override {
-    if (fails) throw OutputError("the diary is full");
-    file_->write(complete ? " finish" : " finish early");
-  }
-
-  std::vector<std::string> columns() const override { return own_columns; }
-
   std::vector<std::string> own_columns;
   std::string asks_for;
   bool draws = false;
@@ -54,6 +34,26 @@ class Diary final : public Output {
   int fails_at = -1;
 
  private:
+  std::vector<std::string> do_file_names() const override { return names_; }
+  void do_begin(OutputContext& run) override {
+    if (draws) run.renderer();
+    file_.emplace(run.file(asks_for.empty() ? names_.front() : asks_for));
+    file_->write("begin");
+  }
+  void do_online(const Frame& frame, const Solution&) override {
+    file_->write(" online " + std::to_string(frame.index));
+  }
+  void do_frame(const Frame& frame, const Solution&) override {
+    if (frame.index == fails_at) throw OutputError("the diary is full");
+    file_->write(" frame " + std::to_string(frame.index));
+  }
+  void do_finish(bool complete) override {
+    if (fails) throw OutputError("the diary is full");
+    file_->write(complete ? " finish" : " finish early");
+  }
+
+  std::vector<std::string> do_columns() const override { return own_columns; }
+
   std::vector<std::string> names_;
   std::optional<TextFile> file_;
 };

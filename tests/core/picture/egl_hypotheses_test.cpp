@@ -161,9 +161,11 @@ TEST(EglHypotheses, FollowTheFrame) {
 class SelfPosed final : public Model {
  public:
   SelfPosed() : Model(make_test_box()) {}
-  bool poses_itself() const override { return true; }
-  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+
+ private:
+  bool do_poses_itself() const override { return true; }
+  void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     const Eigen::Isometry3d pose = world_from_model(parameters);
     vertices = pose.cast<float>() * data().mesh.vertices;
     vertices.row(2).array() *= 1.5F;
@@ -233,8 +235,9 @@ TEST(EglHypotheses, LeaveNothingOfTheBatchBefore) {
 /// Share of the first view that is covered; without a counterpart on the GPU.
 class Coverage final : public Objective {
  public:
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+ private:
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     const DepthTile& tile = hypothesis.views[0];
     int covered = 0;
     for (int i = 0; i < tile.height * tile.stride; ++i) covered += tile.inverse_depth[i] > 0;

@@ -1,5 +1,3 @@
-#include "hypotrack/batch_objective.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/objective.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/session.hpp"
 #include "session/opened_scene.hpp"
@@ -37,8 +36,9 @@ tile: {size: 64}
 /// Sums up the inverse depths of all views, one hypothesis at a time.
 class Area : public Objective {
  public:
-  void prepare(const Observation& /*observation*/) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+ protected:
+  void do_prepare(const Observation& /*observation*/) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     double sum = hypothesis.state[0];
     for (const DepthTile& tile : hypothesis.views)
       for (int y = 0; y < tile.height; ++y)
@@ -48,18 +48,19 @@ class Area : public Objective {
 };
 
 /// The same for several at once; remembers how many. `spoil` changes the costs of a call.
-class BatchArea final : public Area, public BatchObjective {
+class BatchArea final : public Area {
  public:
   using Spoil = void (*)(std::span<double>);
   BatchArea(std::vector<std::size_t>& sizes, Spoil spoil) : sizes_(sizes), spoil_(spoil) {}
-  int most_at_once() const override { return 8; }
-  void costs(std::span<const RenderedHypothesis> all, std::span<double> costs) const override {
+
+ private:
+  int do_most_at_once() const override { return 8; }
+  void do_costs(std::span<const RenderedHypothesis> all, std::span<double> costs) const override {
     sizes_.push_back(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) costs[i] = cost(all[i]);
+    for (std::size_t i = 0; i < all.size(); ++i) costs[i] = do_cost(all[i]);
     if (spoil_) spoil_(costs);
   }
 
- private:
   std::vector<std::size_t>& sizes_;
   Spoil spoil_;
 };

@@ -20,10 +20,17 @@ class Numbers final : public Source {
  public:
   explicit Numbers(int count) : count_(count) {}
 
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return 30; }
-  bool live() const override { return is_live; }
-  std::optional<Frame> next() override {
+  std::atomic<int> read = 0;
+  std::atomic<std::thread::id> thread;
+  std::atomic<int> most_threads = 0;
+  int fails_at = -1;
+  bool is_live = false;
+
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return 30; }
+  bool do_live() const override { return is_live; }
+  std::optional<Frame> do_next() override {
     thread = std::this_thread::get_id();
     most_threads = tbb::this_task_arena::max_concurrency();
     const int index = read++;
@@ -34,13 +41,6 @@ class Numbers final : public Source {
     return frame;
   }
 
-  std::atomic<int> read = 0;
-  std::atomic<std::thread::id> thread;
-  std::atomic<int> most_threads = 0;
-  int fails_at = -1;
-  bool is_live = false;
-
- private:
   int count_;
   std::vector<Camera> cameras_;
 };

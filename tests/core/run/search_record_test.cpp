@@ -45,17 +45,19 @@ class Observer final : public Output {
 
   Observer(std::vector<int> wanted, std::map<int, Seen>& seen)
       : wanted_(std::move(wanted)), seen_(seen) {}
-  std::vector<std::string> file_names() const override { return {}; }
-  void begin(OutputContext& /*run*/) override {}
-  bool wants_search(const Frame& frame) const override {
-    return std::ranges::find(wanted_, frame.index) != wanted_.end();
-  }
-  void search(const Frame& frame, const Solution& solution, const SearchRecord& record) override {
-    seen_[frame.index] = {solution, record};
-  }
-  void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
 
  private:
+  std::vector<std::string> do_file_names() const override { return {}; }
+  void do_begin(OutputContext& /*run*/) override {}
+  bool do_wants_search(const Frame& frame) const override {
+    return std::ranges::find(wanted_, frame.index) != wanted_.end();
+  }
+  void do_search(const Frame& frame, const Solution& solution,
+                 const SearchRecord& record) override {
+    seen_[frame.index] = {solution, record};
+  }
+  void do_frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
+
   std::vector<int> wanted_;
   std::map<int, Seen>& seen_;
 };

@@ -37,9 +37,12 @@ class Silhouette final : public Objective, public ResidualTerm {
  public:
   explicit Silhouette(double elsewhere, bool mixed_edges = false)
       : elsewhere_(elsewhere), mixed_edges_(mixed_edges) {}
+  bool learning = false;
+  mutable std::map<int, std::vector<bool>> targets;
 
-  void prepare(const Observation& observation) override { frame_ = observation.frame; }
-  double cost(const RenderedHypothesis& h) const override {
+ private:
+  void do_prepare(const Observation& observation) override { frame_ = observation.frame; }
+  double do_cost(const RenderedHypothesis& h) const override {
     const std::vector<bool> covered = coverage_of(h.views[0]);
     if (learning) targets[frame_] = mixed_edges_ ? eroded(covered) : covered;
     const std::vector<bool>& target = targets[frame_];
@@ -48,9 +51,9 @@ class Silhouette final : public Objective, public ResidualTerm {
       if (covered[i]) cost -= target[i] ? 1 : elsewhere_;
     return cost;
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return kTile * kTile; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return kTile * kTile; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     const std::vector<bool> covered = coverage_of(h.views[0]);
     const std::vector<bool>& target = targets.at(frame_);
     for (std::size_t i = 0; i < covered.size(); ++i) {
@@ -58,10 +61,7 @@ class Silhouette final : public Objective, public ResidualTerm {
       residuals[i] = static_cast<float>(std::sqrt(1 - s));
     }
   }
-  bool learning = false;
-  mutable std::map<int, std::vector<bool>> targets;
 
- private:
   double elsewhere_;
   bool mixed_edges_;
   int frame_ = 0;
@@ -70,16 +70,18 @@ class Silhouette final : public Objective, public ResidualTerm {
 /// Remembers how bright the second view is, and counts the frames.
 class Brightness final : public Objective, public ResidualTerm {
  public:
-  void prepare(const Observation& observation) override {
+  double second_view = 0;
+  int prepared = 0;
+
+ private:
+  void do_prepare(const Observation& observation) override {
     second_view = observation.views[1].color.at<cv::Vec3b>(kTile / 2, kTile / 2)[0];
     ++prepared;
   }
-  double cost(const RenderedHypothesis&) const override { return 0; }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 0; }
-  void write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
-  double second_view = 0;
-  int prepared = 0;
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 0; }
+  void do_write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
 };
 
 /// A hand of another shape in four postures before a pair of cameras.

@@ -8,23 +8,24 @@ namespace {
 /// Ten frames at 5 Hz, the first before a gap.
 class Counting final : public Source {
  public:
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return 5; }
-  std::optional<int> frame_count() const override { return 10; }
-  std::optional<Frame> next() override {
+  double gap = 0;  ///< s
+
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return 5; }
+  std::optional<int> do_frame_count() const override { return 10; }
+  std::optional<Frame> do_next() override {
     if (next_ == 10) return std::nullopt;
     Frame frame;
     frame.index = next_++;
     frame.time = frame.index / 5.0 + (frame.index > 0 ? gap : 0);
     return frame;
   }
-  std::vector<std::string> notes() const override { return {"a setting was refused"}; }
-  std::vector<std::string> statistics() const override {
+  std::vector<std::string> do_notes() const override { return {"a setting was refused"}; }
+  std::vector<std::string> do_statistics() const override {
     return {std::to_string(next_) + " frames"};
   }
-  double gap = 0;  ///< s
 
- private:
   std::vector<Camera> cameras_{Camera{}};
   int next_ = 0;
 };

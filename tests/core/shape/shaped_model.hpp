@@ -15,15 +15,16 @@ class ShapedHand final : public Model {
  public:
   explicit ShapedHand(std::vector<double> values = {1, 1})
       : Model(built(values)), values_(std::move(values)) {}
-  std::vector<ShapeParameter> shape_parameters() const override {
+
+ private:
+  std::vector<ShapeParameter> do_shape_parameters() const override {
     return {{"scale", values_[0], 1, 0.7, 1.35, 0.07},
             {"index", values_[1], 1, 0.75, 1.3, 0.05, {-0.3}}};
   }
-  ModelData shaped(std::span<const double> values) const override {
+  ModelData do_shaped(std::span<const double> values) const override {
     return built({values.begin(), values.end()});
   }
 
- private:
   static ModelData built(const std::vector<double>& values) {
     ModelData data = make_test_hand();
     std::vector<BoneStretch> stretches(data.bones.size());

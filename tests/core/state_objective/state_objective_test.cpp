@@ -19,16 +19,17 @@ constexpr Eigen::Index kStates = 100;
 class WeightedSumObjective final : public Objective {
  public:
   explicit WeightedSumObjective(double factor) : term_{factor} {}
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& hypothesis) const override {
+
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& hypothesis) const override {
     return term_.cost(hypothesis.state.data(), static_cast<int>(hypothesis.state.size()));
   }
-  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+  std::unique_ptr<cuda::DeviceObjective> do_on_device() const override {
     return test::on_device(term_);
   }
 
- private:
   test::WeightedSum term_;
 };
 

@@ -17,19 +17,20 @@ using testing::HasSubstr;
 /// Distance of the model from a point; fails in some frames as a device does.
 class OnFailingDevice final : public Objective {
  public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation& observation) override { frame_ = observation.frame; }
-  double cost(const RenderedHypothesis& h) const override {
+  int fails_in = 2;
+  mutable int failures = 1;
+
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation& observation) override { frame_ = observation.frame; }
+  double do_cost(const RenderedHypothesis& h) const override {
     if (frame_ == fails_in && failures > 0) {
       --failures;
       throw DeviceError("the device is lost");
     }
     return std::hypot(h.state[0] - 0.001 * frame_, h.state[1], h.state[2] - 0.5);
   }
-  int fails_in = 2;
-  mutable int failures = 1;
 
- private:
   int frame_ = 0;
 };
 

@@ -17,9 +17,10 @@ using Flags = std::vector<bool>;
 /// Scores nothing, but would look at pictures.
 class Drawn final : public Objective {
  public:
-  bool needs_rendering() const override { return true; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis&) const override { return 0; }
+ private:
+  bool do_needs_rendering() const override { return true; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
 };
 
 /// Returns the start.

@@ -1,4 +1,4 @@
-// An objective that refines the start of a search, and what stands between it and the tracker.
+// An objective that refines the start of a search.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +8,6 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/refines_start.hpp"
-#include "session/checked_objective.hpp"
 #include "test_models.hpp"
 #include "track/frame_search.hpp"
 
@@ -19,29 +17,31 @@ namespace {
 using testing::HasSubstr;
 
 /// Costs nothing anywhere, and starts 7 mm to the side of every start.
-class Aside final : public Objective, public RefinesStart {
+class Aside final : public Objective {
  public:
-  bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.color = false, .mask = false, .depth = false}; }
-  void prepare(const Observation& observation) override { start_ = observation.start; }
-  double cost(const RenderedHypothesis&) const override { return 0; }
-  Eigen::VectorXd refined_start() const override {
+  Eigen::VectorXd answer;
+  bool says_nothing = false;
+
+ private:
+  bool do_needs_rendering() const override { return false; }
+  ImageUse do_image_use() const override { return {.color = false, .mask = false, .depth = false}; }
+  void do_prepare(const Observation& observation) override { start_ = observation.start; }
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
+  Eigen::VectorXd do_refined_start() const override {
     if (answer.size() > 0 || says_nothing) return answer;
     Eigen::VectorXd out = start_;
     for (Eigen::Index i = 0; i < out.size(); i += 7) out[i] += 0.007;
     return out;
   }
-  Eigen::VectorXd answer;
-  bool says_nothing = false;
 
- private:
   Eigen::VectorXd start_;
 };
 
 class Costless final : public Objective {
  public:
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis&) const override { return 0; }
+ private:
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
 };
 
 /// Answers with the start.
@@ -117,15 +117,12 @@ TEST_F(RefinedStart, MayBeUnknown) {
 }
 
 TEST_F(RefinedStart, PassesTheCheckOfObjectives) {
-  const auto checked = [&](std::unique_ptr<Objective> objective) {
-    return CheckedObjective(std::move(objective), "scene.yaml:3:3: aside");
-  };
   Observation observation;
   observation.start = start();
-  CheckedObjective refining = checked(std::make_unique<Aside>());
+  Aside refining;
   refining.prepare(observation);
   EXPECT_NEAR(refining.refined_start()[0], 0.007, 1e-12);
-  CheckedObjective plain = checked(std::make_unique<Costless>());
+  Costless plain;
   plain.prepare(observation);
   EXPECT_EQ(plain.refined_start().size(), 0);
 }
@@ -134,9 +131,9 @@ TEST_F(RefinedStart, OfTheWrongSizeOrNotFiniteIsNamed) {
   for (const Eigen::VectorXd& wrong :
        {Eigen::VectorXd(Eigen::VectorXd::Zero(3)),
         Eigen::VectorXd(Eigen::VectorXd::Constant(14, std::numeric_limits<double>::quiet_NaN()))}) {
-    auto aside = std::make_unique<Aside>();
-    aside->answer = wrong;
-    CheckedObjective objective(std::move(aside), "scene.yaml:3:3: aside");
+    Aside objective;
+    objective.answer = wrong;
+    objective.set_label("scene.yaml:3:3: aside");
     Observation observation;
     observation.start = start();
     objective.prepare(observation);

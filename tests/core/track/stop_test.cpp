@@ -20,15 +20,16 @@ namespace {
 class Distance final : public Objective {
  public:
   explicit Distance(bool draws) : draws_(draws) {}
-  bool needs_rendering() const override { return draws_; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
-    ++costs;
-    return std::hypot(h.state[0] - 0.01, h.state[1], h.state[2] - 0.5);
-  }
   mutable std::atomic<int> costs = 0;
 
  private:
+  bool do_needs_rendering() const override { return draws_; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& h) const override {
+    ++costs;
+    return std::hypot(h.state[0] - 0.01, h.state[1], h.state[2] - 0.5);
+  }
+
   bool draws_;
 };
 
@@ -59,13 +60,14 @@ class OneBatch final : public Optimizer {
 class EndlessStart final : public Start {
  public:
   explicit EndlessStart(std::atomic<int>& begun) : begun_(begun) {}
-  bool looks() const override { return true; }
-  void find(const StartContext&, std::size_t, const TakePose&) override {
+
+ private:
+  bool do_looks() const override { return true; }
+  void do_find(const StartContext&, std::size_t, const TakePose&) override {
     ++begun_;
     while (true) check_stop();
   }
 
- private:
   std::atomic<int>& begun_;
 };
 

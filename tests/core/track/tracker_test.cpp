@@ -22,23 +22,6 @@ using testing::HasSubstr;
 /// Distance of the model's position from a target that moves 5 mm per frame along x.
 class MovingTarget final : public Objective, public ResidualTerm {
  public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation& observation) override {
-    x_ = 0.005 * observation.frame;
-    observed.push_back({observation.context.start_is_guess, observation.start});
-    most_threads = tbb::this_task_arena::max_concurrency();
-  }
-  double cost(const RenderedHypothesis& h) const override {
-    if (infeasible) return std::numeric_limits<double>::infinity();
-    return std::hypot(h.state[0] - x_, h.state[1], h.state[2] - 0.5);
-  }
-  const ResidualTerm* residual_term() const override { return offers_residuals ? this : nullptr; }
-  std::int64_t residual_count() const override { return 3; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
-    for (std::size_t i = 0; i < 3; ++i) residuals[i] = static_cast<float>(h.state[i]);
-    residuals[0] -= static_cast<float>(x_);
-    residuals[2] -= 0.5F;
-  }
   int most_threads = 0;
   bool infeasible = false;
   bool offers_residuals = true;
@@ -50,6 +33,26 @@ class MovingTarget final : public Objective, public ResidualTerm {
   std::vector<Observed> observed;
 
  private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation& observation) override {
+    x_ = 0.005 * observation.frame;
+    observed.push_back({observation.context.start_is_guess, observation.start});
+    most_threads = tbb::this_task_arena::max_concurrency();
+  }
+  double do_cost(const RenderedHypothesis& h) const override {
+    if (infeasible) return std::numeric_limits<double>::infinity();
+    return std::hypot(h.state[0] - x_, h.state[1], h.state[2] - 0.5);
+  }
+  const ResidualTerm* do_residual_term() const override {
+    return offers_residuals ? this : nullptr;
+  }
+  std::int64_t do_residual_count() const override { return 3; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+    for (std::size_t i = 0; i < 3; ++i) residuals[i] = static_cast<float>(h.state[i]);
+    residuals[0] -= static_cast<float>(x_);
+    residuals[2] -= 0.5F;
+  }
+
   double x_ = 0;
 };
 
@@ -422,12 +425,14 @@ TEST(Tracker, UsesNoMoreThreadsThanTheSettingsSay) {
 /// Remembers the second view's tile of the last frame; every pose is as good as another.
 class Remembering final : public Objective {
  public:
-  bool needs_rendering() const override { return true; }
-  void prepare(const Observation& observation) override {
+  cv::Mat tile;
+
+ private:
+  bool do_needs_rendering() const override { return true; }
+  void do_prepare(const Observation& observation) override {
     tile = observation.views[1].color.clone();
   }
-  double cost(const RenderedHypothesis&) const override { return 0; }
-  cv::Mat tile;
+  double do_cost(const RenderedHypothesis&) const override { return 0; }
 };
 
 /// The second view's tile of a shiny ball's third frame, as the objective gets it and as seen()

@@ -26,26 +26,27 @@ class Readings final : public Objective, public ResidualTerm {
       noise_.push_back(-noise_.back());  // so that the middle is the minimum
     }
   }
-  bool needs_rendering() const override { return draws_; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
+
+ private:
+  bool do_needs_rendering() const override { return draws_; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& h) const override {
     double sum = 0;
     for (const int axis : axes_)
       for (const double noise : noise_) sum += std::pow(position(h, axis) + noise, 2);
     return sum;
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override {
     return static_cast<std::int64_t>(axes_.size() * noise_.size());
   }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     std::size_t i = 0;
     for (const int axis : axes_)
       for (const double noise : noise_)
         residuals[i++] = static_cast<float>(position(h, axis) + noise);
   }
 
- private:
   static double position(const RenderedHypothesis& h, int axis) {
     return h.state[static_cast<std::size_t>(axis)];
   }
@@ -112,18 +113,18 @@ TEST(PoseUncertainty, IsNotLessForATermThatLooksAtThePoseOnly) {
 /// Readings of x + y, without any noise.
 class ExactSum final : public Objective, public ResidualTerm {
  public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
-    return static_cast<double>(residual_count()) * reading(h) * reading(h);
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& h) const override {
+    return static_cast<double>(do_residual_count()) * reading(h) * reading(h);
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 400; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 400; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     std::ranges::fill(residuals, static_cast<float>(reading(h)));
   }
 
- private:
   static double reading(const RenderedHypothesis& h) { return 1000 * (h.state[0] + h.state[1]); }
 };
 

@@ -22,11 +22,12 @@ using testing::HasSubstr;
 class NoFrames final : public Source {
  public:
   explicit NoFrames(std::vector<Camera> cameras) : cameras_(std::move(cameras)) {}
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return 30; }
-  std::optional<Frame> next() override { return std::nullopt; }
 
  private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return 30; }
+  std::optional<Frame> do_next() override { return std::nullopt; }
+
   std::vector<Camera> cameras_;
 };
 

@@ -194,9 +194,11 @@ TEST_F(GltfHandTest, ARunWithoutFramesLeavesTheModelsAtRest) {
 class Jelly final : public Model {
  public:
   Jelly() : Model(test::make_test_box()) {}
-  bool poses_itself() const override { return true; }
-  void pose(std::span<const double> /*parameters*/, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+
+ private:
+  bool do_poses_itself() const override { return true; }
+  void do_pose(std::span<const double> /*parameters*/, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     vertices = data().mesh.vertices;
     landmarks.setZero(3, static_cast<Eigen::Index>(data().landmarks.size()));
   }

@@ -49,14 +49,14 @@ class Failing : public hypotrack::Model {
   };
   explicit Failing(const Params& params) : Model(data_of(params.how)), params_(params) {}
 
-  bool poses_itself() const override { return true; }
-  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
-            Eigen::Matrix3Xd& landmarks) const override {
+ private:
+  bool do_poses_itself() const override { return true; }
+  void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+               Eigen::Matrix3Xd& landmarks) const override {
     Model::pose(parameters, vertices, landmarks);
     if (parameters[0] < -1e-4) fail(vertices, landmarks);
   }
 
- private:
   void fail(Eigen::Matrix3Xf& vertices, Eigen::Matrix3Xd& landmarks) const {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     if (params_.how == How::kSegfault) raise(SIGSEGV);

@@ -45,9 +45,10 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
   };
   explicit Failing(const Params& params) : params_(params) {}
 
-  bool needs_rendering() const override { return false; }
-  void prepare(const hypotrack::Observation&) override { ++frames_; }
-  double cost(const hypotrack::RenderedHypothesis& hypothesis) const override {
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const hypotrack::Observation&) override { ++frames_; }
+  double do_cost(const hypotrack::RenderedHypothesis& hypothesis) const override {
     if (fails()) fail();
     if (fails() && params_.how == How::kNanCost) return std::numeric_limits<double>::quiet_NaN();
     if (fails() && params_.how == How::kMinusInfinity)
@@ -55,33 +56,33 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
     return hypothesis.state[0] * hypothesis.state[0];
   }
 
-  const hypotrack::ResidualTerm* residual_term() const override {
+  const hypotrack::ResidualTerm* do_residual_term() const override {
     return has_residuals() ? this : nullptr;
   }
-  std::int64_t residual_count() const override {
+  std::int64_t do_residual_count() const override {
     return fails() && params_.how == How::kNegativeCount ? -7 : 1;
   }
-  void write_residuals(const hypotrack::RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
+  void do_write_residuals(const hypotrack::RenderedHypothesis& hypothesis,
+                          std::span<float> residuals) const override {
     residuals[0] = static_cast<float>(hypothesis.state[0]);
     if (fails() && params_.how == How::kNanResidual)
       residuals[0] = std::numeric_limits<float>::quiet_NaN();
   }
-  bool has_jacobian() const override {
+  bool do_has_jacobian() const override {
     return params_.how == How::kNanJacobian || params_.how == How::kNarrowJacobian;
   }
-  void write_jacobian(const hypotrack::RenderedHypothesis& hypothesis, std::span<float> residuals,
-                      hypotrack::Jacobian& jacobian) const override {
-    write_residuals(hypothesis, residuals);
+  void do_write_jacobian(const hypotrack::RenderedHypothesis& hypothesis,
+                         std::span<float> residuals, hypotrack::Jacobian& jacobian) const override {
+    do_write_residuals(hypothesis, residuals);
     jacobian(0, 0) = 1;
     if (!fails()) return;
     if (params_.how == How::kNanJacobian) jacobian(0, 2) = std::numeric_limits<float>::quiet_NaN();
     if (params_.how == How::kNarrowJacobian) jacobian.resize(1, 6);
   }
 
- private:
   bool has_residuals() const {
-    return params_.how == How::kNanResidual || params_.how == How::kNegativeCount || has_jacobian();
+    return params_.how == How::kNanResidual || params_.how == How::kNegativeCount ||
+           do_has_jacobian();
   }
   bool fails() const {
     const int after = frames_ - params_.frames;

@@ -23,16 +23,16 @@ class Failing : public hypotrack::Output {
   };
   explicit Failing(const Params& params) : params_(params) {}
 
-  std::vector<std::string> file_names() const override { return {}; }
-  void begin(hypotrack::OutputContext&) override {}
-  void frame(const hypotrack::Frame& frame, const hypotrack::Solution&) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return {}; }
+  void do_begin(hypotrack::OutputContext&) override {}
+  void do_frame(const hypotrack::Frame& frame, const hypotrack::Solution&) override {
     if (frame.index != 3) return;
     if (params_.how == How::kException) throw std::runtime_error("the output is broken");
     if (params_.how == How::kOutputError) throw hypotrack::OutputError("no room");
     raise(SIGSEGV);
   }
 
- private:
   Params params_;
 };
 

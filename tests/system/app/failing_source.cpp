@@ -41,10 +41,11 @@ class Failing : public hypotrack::Source {
   Failing(const Params& params, hypotrack::PluginContext& context)
       : how_(params.how), at_(params.at), source_(context.make<hypotrack::Source>(params.source)) {}
 
-  const std::vector<hypotrack::Camera>& cameras() const override { return source_->cameras(); }
-  double frame_rate() const override { return source_->frame_rate(); }
-  std::optional<int> frame_count() const override { return 40; }
-  std::optional<hypotrack::Frame> next() override {
+ private:
+  const std::vector<hypotrack::Camera>& do_cameras() const override { return source_->cameras(); }
+  double do_frame_rate() const override { return source_->frame_rate(); }
+  std::optional<int> do_frame_count() const override { return 40; }
+  std::optional<hypotrack::Frame> do_next() override {
     std::optional<hypotrack::Frame> frame = source_->next();
     if (!frame || frame->index != at_) return frame;
     if (how_ == How::kException) throw std::runtime_error("no picture");
@@ -55,7 +56,6 @@ class Failing : public hypotrack::Source {
     return frame;
   }
 
- private:
   void spoil(std::vector<hypotrack::View>& views) const {
     if (how_ == How::kGrey) views[1].color = cv::Mat::zeros(views[1].color.size(), CV_8UC1);
     if (how_ == How::kSmall) views[1].color = cv::Mat::zeros(10, 10, CV_8UC3);

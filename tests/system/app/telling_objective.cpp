@@ -23,11 +23,12 @@ class Telling : public hypotrack::Objective, public hypotrack::ResidualTerm {
     log_.note("was made");
   }
 
-  bool needs_rendering() const override { return false; }
-  hypotrack::ImageUse image_use() const override {
+ private:
+  bool do_needs_rendering() const override { return false; }
+  hypotrack::ImageUse do_image_use() const override {
     return {.mask = false, .depth = false, .previous = params_.tiles};
   }
-  void prepare(const hypotrack::Observation& observation) override {
+  void do_prepare(const hypotrack::Observation& observation) override {
     log_.note("prepares frames");
     for (int i = 0; i < params_.different; ++i) log_.note(fmt::format("text {}", i));
     const hypotrack::FrameContext& context = observation.context;
@@ -49,19 +50,18 @@ class Telling : public hypotrack::Objective, public hypotrack::ResidualTerm {
           view.color.cols != view.camera.width || cv::mean(view.color) == cv::Scalar())
         log_.warning("a tile of the previous frame is not as promised");
   }
-  double cost(const hypotrack::RenderedHypothesis&) const override {
+  double do_cost(const hypotrack::RenderedHypothesis&) const override {
     log_.warning("a cost\nof several threads");
     return 0;
   }
 
-  const hypotrack::ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 1; }
-  void write_residuals(const hypotrack::RenderedHypothesis&,
-                       std::span<float> residuals) const override {
+  const hypotrack::ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 1; }
+  void do_write_residuals(const hypotrack::RenderedHypothesis&,
+                          std::span<float> residuals) const override {
     residuals[0] = 0;
   }
 
- private:
   Params params_;
   hypotrack::PluginLog log_;
 };

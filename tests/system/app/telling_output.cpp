@@ -18,22 +18,22 @@ class Telling : public hypotrack::Output {
   Telling(const Params& params, hypotrack::PluginContext& context)
       : params_(params), log_(context.log()) {}
 
-  std::vector<std::string> file_names() const override { return {}; }
-  void begin(hypotrack::OutputContext& run) override {
+ private:
+  std::vector<std::string> do_file_names() const override { return {}; }
+  void do_begin(hypotrack::OutputContext& run) override {
     if (params_.draws) run.renderer();
   }
-  std::vector<std::string> columns() const override { return {params_.column, "odd"}; }
-  void values(const hypotrack::Frame& frame, const hypotrack::Solution& solution,
-              std::span<double> values) override {
+  std::vector<std::string> do_columns() const override { return {params_.column, "odd"}; }
+  void do_values(const hypotrack::Frame& frame, const hypotrack::Solution& solution,
+                 std::span<double> values) override {
     values[0] = solution.state[2];
     if (frame.index % 2 == 1) values[1] = frame.index;
   }
-  void frame(const hypotrack::Frame& frame, const hypotrack::Solution&) override {
+  void do_frame(const hypotrack::Frame& frame, const hypotrack::Solution&) override {
     if (frame.index == 3) log_.note("sees a frame");
   }
-  void finish(bool) override { log_.note("ends"); }
+  void do_finish(bool) override { log_.note("ends"); }
 
- private:
   Params params_;
   hypotrack::PluginLog log_;
 };

@@ -10,10 +10,11 @@ class Weighty : public hypotrack::Objective {
     void visit(hypotrack::ParamVisitor& v) { v("weight", weight, {.help = "of the hand, in kg"}); }
   };
   explicit Weighty(const Params& params) : weight_(params.weight) {}
-  void prepare(const hypotrack::Observation&) override {}
-  double cost(const hypotrack::RenderedHypothesis&) const override { return weight_; }
 
  private:
+  void do_prepare(const hypotrack::Observation&) override {}
+  double do_cost(const hypotrack::RenderedHypothesis&) const override { return weight_; }
+
   double weight_;
 };
 

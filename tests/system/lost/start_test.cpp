@@ -81,13 +81,15 @@ TEST(LookedFor, ModelsNeedTwoViewsAndARecovery) {
 class AlwaysThere final : public Start {
  public:
   explicit AlwaysThere(Eigen::VectorXd pose) : pose_(std::move(pose)) {}
-  bool looks() const override { return true; }
-  bool recognizes(std::size_t /*model*/) const override { return true; }
-  void find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& take) override {
+
+ private:
+  bool do_looks() const override { return true; }
+  bool do_recognizes(std::size_t /*model*/) const override { return true; }
+  void do_find(const StartContext& /*context*/, std::size_t /*model*/,
+               const TakePose& take) override {
     take(pose_);
   }
 
- private:
   Eigen::VectorXd pose_;
 };
 
@@ -136,13 +138,14 @@ struct Frames {
 class Recognizer final : public Start {
  public:
   Recognizer(Eigen::VectorXd pose, Frames seen) : pose_(std::move(pose)), seen_(seen) {}
-  bool looks() const override { return true; }
-  bool recognizes(std::size_t /*model*/) const override { return true; }
-  void find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
+
+ private:
+  bool do_looks() const override { return true; }
+  bool do_recognizes(std::size_t /*model*/) const override { return true; }
+  void do_find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
     if (context.frame->index >= seen_.first && context.frame->index < seen_.end) take(pose_);
   }
 
- private:
   Eigen::VectorXd pose_;
   Frames seen_;
 };
@@ -151,14 +154,15 @@ class Recognizer final : public Start {
 class WrongSearch final : public Start {
  public:
   WrongSearch(Eigen::VectorXd pose, int& searches) : pose_(std::move(pose)), searches_(searches) {}
-  bool looks() const override { return true; }
-  void find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
+
+ private:
+  bool do_looks() const override { return true; }
+  void do_find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
     if (!context.search) return;
     ++searches_;
     take(pose_);
   }
 
- private:
   Eigen::VectorXd pose_;
   int& searches_;
 };
@@ -245,15 +249,16 @@ class RightHandOnly final : public Start {
  public:
   RightHandOnly(const Eigen::VectorXd& truth, bool recognizes)
       : truth_(truth), recognizes_(recognizes) {}
-  bool looks() const override { return true; }
-  bool recognizes(std::size_t /*model*/) const override { return recognizes_; }
-  void find(const StartContext& context, std::size_t model, const TakePose& take) override {
+
+ private:
+  bool do_looks() const override { return true; }
+  bool do_recognizes(std::size_t /*model*/) const override { return recognizes_; }
+  void do_find(const StartContext& context, std::size_t model, const TakePose& take) override {
     const Scene::Item& right = context.scene.items()[0];
     if (model == 0 || (!recognizes_ && context.search))
       take(truth_.segment(right.offset, right.model->dimension()));
   }
 
- private:
   const Eigen::VectorXd& truth_;
   bool recognizes_;
 };

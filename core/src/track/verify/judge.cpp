@@ -39,16 +39,16 @@ std::span<const MeasureInfo, Measures::kCount> measure_infos() {
 Judge::~Judge() = default;
 
 double Judge::log_odds(const Measures& measures) const {
-  const double out = detail::call_plugin(label_, [&] { return do_log_odds(measures); });
+  const double out = detail::call_plugin(*this, [&] { return do_log_odds(measures); });
   if (!std::isnan(out)) return out;
   throw PluginError(fmt::format(
       "{}: the log odds of a pose are NaN, expected a number or an infinity; this is a bug in the "
       "judge",
-      label_.empty() ? "the judge" : label_));
+      detail::label_or(*this, "the judge")));
 }
 
 FittedJudge Judge::fit(const JudgeFit& to) const {
-  return detail::call_plugin(label_, [&] { return do_fit(to); });
+  return detail::call_plugin(*this, [&] { return do_fit(to); });
 }
 
 FittedJudge Judge::do_fit(const JudgeFit&) const {

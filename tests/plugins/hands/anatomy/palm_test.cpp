@@ -85,7 +85,9 @@ TEST_F(PalmRotation, PointsAnyHandAsItSays) {
 class Paw final : public Model {
  public:
   Paw() : Model(test::make_test_box()) {}
-  std::vector<NamedDirection> directions() const override {
+
+ private:
+  std::vector<NamedDirection> do_directions() const override {
     return {{"sole", {0.6, 0, 0.8}}, {"claws", Eigen::Vector3d::UnitY()}};
   }
 };

@@ -185,7 +185,9 @@ TEST(Interpenetration, RefusesModelsThatPoseThemselves) {
   class PosesItself final : public Model {
    public:
     PosesItself() : Model(test::make_test_box()) {}
-    bool poses_itself() const override { return true; }
+
+   private:
+    bool do_poses_itself() const override { return true; }
   };
   const Scene scene{{{"cloth", std::make_shared<PosesItself>()}}};
   const std::string message =

@@ -16,23 +16,24 @@ namespace {
 /// Pulls the model to a distance and a rotation; has a Jacobian.
 class Prior final : public Objective, public ResidualTerm {
  public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
+ private:
+  bool do_needs_rendering() const override { return false; }
+  void do_prepare(const Observation&) override {}
+  double do_cost(const RenderedHypothesis& h) const override {
     float r[2];
-    write_residuals(h, r);
+    do_write_residuals(h, r);
     return r[0] * r[0] + r[1] * r[1];
   }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 2; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override { return 2; }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     residuals[0] = static_cast<float>(100 * (h.state[2] * h.state[2] - 0.3));
     residuals[1] = static_cast<float>(20 * (h.state[5] + 0.1));
   }
-  bool has_jacobian() const override { return true; }
-  void write_jacobian(const RenderedHypothesis& h, std::span<float> residuals,
-                      Jacobian& jacobian) const override {
-    write_residuals(h, residuals);
+  bool do_has_jacobian() const override { return true; }
+  void do_write_jacobian(const RenderedHypothesis& h, std::span<float> residuals,
+                         Jacobian& jacobian) const override {
+    do_write_residuals(h, residuals);
     jacobian(0, 2) = static_cast<float>(200 * h.state[2]);
     jacobian(1, 5) = 20;
   }
@@ -42,16 +43,19 @@ class Prior final : public Objective, public ResidualTerm {
 class ResidualsOnly final : public Objective, public ResidualTerm {
  public:
   explicit ResidualsOnly(std::shared_ptr<Objective> objective) : all_(std::move(objective)) {}
-  bool needs_rendering() const override { return all_->needs_rendering(); }
-  void prepare(const Observation& observation) override { all_->prepare(observation); }
-  double cost(const RenderedHypothesis& h) const override { return all_->cost(h); }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return all_->residual_term()->residual_count(); }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+
+ private:
+  bool do_needs_rendering() const override { return all_->needs_rendering(); }
+  void do_prepare(const Observation& observation) override { all_->prepare(observation); }
+  double do_cost(const RenderedHypothesis& h) const override { return all_->cost(h); }
+  const ResidualTerm* do_residual_term() const override { return this; }
+  std::int64_t do_residual_count() const override {
+    return all_->residual_term()->residual_count();
+  }
+  void do_write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
     all_->residual_term()->write_residuals(h, residuals);
   }
 
- private:
   std::shared_ptr<Objective> all_;
 };
 

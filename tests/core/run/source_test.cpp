@@ -1,4 +1,4 @@
-#include "session/checked_source.hpp"
+#include "hypotrack/source.hpp"
 
 #include <gmock/gmock.h>
 
@@ -22,17 +22,18 @@ class StoppedClock final : public Source {
   explicit StoppedClock(bool live) : live_(live), cameras_(1) {
     cameras_[0].fx = cameras_[0].fy = 100;
   }
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return 10; }
-  bool live() const override { return live_; }
-  std::optional<Frame> next() override {
+
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return 10; }
+  bool do_live() const override { return live_; }
+  std::optional<Frame> do_next() override {
     Frame frame;
     frame.index = next_++;
     frame.time = 7;
     return frame;
   }
 
- private:
   bool live_;
   std::vector<Camera> cameras_;
   int next_ = 0;
@@ -45,9 +46,11 @@ class ListedFrames final : public Source {
       : frames_(std::move(frames)), stamped_(stamped), cameras_(1) {
     cameras_[0].fx = cameras_[0].fy = 100;
   }
-  const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return 10; }
-  std::optional<Frame> next() override {
+
+ private:
+  const std::vector<Camera>& do_cameras() const override { return cameras_; }
+  double do_frame_rate() const override { return 10; }
+  std::optional<Frame> do_next() override {
     if (next_ == frames_.size()) return std::nullopt;
     Frame frame;
     if (next_ < stamped_) frame.stamp = 1;
@@ -55,23 +58,20 @@ class ListedFrames final : public Source {
     return frame;
   }
 
- private:
   std::vector<std::pair<int, double>> frames_;
   std::size_t stamped_;  ///< number of frames with a stamp, from the first on
   std::vector<Camera> cameras_;
   std::size_t next_ = 0;
 };
 
-class CheckedSourceTest : public ::testing::Test {
+class SourceTest : public ::testing::Test {
  protected:
-  CheckedSource checked(bool live) const {
-    return {std::make_unique<StoppedClock>(live), scene_, "stopped"};
-  }
   using Frames = std::vector<std::pair<int, double>>;
 
   /// Reads all frames.
   void read(Frames frames) const {
-    CheckedSource source(std::make_unique<ListedFrames>(std::move(frames)), scene_, "listed");
+    ListedFrames source(std::move(frames));
+    source.check_for(scene_);
     while (source.next()) {
     }
   }
@@ -81,20 +81,15 @@ class CheckedSourceTest : public ::testing::Test {
   Scene scene_{{{"box", std::make_shared<Model>(test::make_test_box({0.1, 0.1, 0.1}))}}};
 };
 
-TEST_F(CheckedSourceTest, IsLiveIfItsSourceIs) {
-  EXPECT_TRUE(checked(true).live());
-  EXPECT_FALSE(checked(false).live());
-}
-
-TEST_F(CheckedSourceTest, MovesFramesThatComeAtTheSameTime) {
-  CheckedSource source = checked(false);
+TEST_F(SourceTest, MovesFramesThatComeAtTheSameTime) {
+  StoppedClock source(false);
   EXPECT_EQ(source.next()->time, 7);
   const Frame second = *source.next();
   EXPECT_DOUBLE_EQ(second.time, 7.1);
   EXPECT_EQ(second.fault, FrameFault::time_back);
 }
 
-TEST_F(CheckedSourceTest, RefusesNumbersThatDoNotGrowAndTimesThatAreNone) {
+TEST_F(SourceTest, RefusesNumbersThatDoNotGrowAndTimesThatAreNone) {
   using testing::AllOf, testing::HasSubstr;
   EXPECT_NO_THROW(read({{0, 0}, {1, 0.1}, {5, 0.5}}));
   EXPECT_THAT(refusal({{0, 0}, {0, 0.1}}), AllOf(HasSubstr("frame 0 at 0.1 s follows frame 0"),
@@ -104,11 +99,10 @@ TEST_F(CheckedSourceTest, RefusesNumbersThatDoNotGrowAndTimesThatAreNone) {
   EXPECT_THAT(refusal({{0, std::nan("")}}), HasSubstr("frame 0 at nan s"));
 }
 
-TEST_F(CheckedSourceTest, RefusesFramesOfWhichSomeHaveAStamp) {
+TEST_F(SourceTest, RefusesFramesOfWhichSomeHaveAStamp) {
   const auto read = [&](std::size_t stamped) {
-    CheckedSource source(std::make_unique<ListedFrames>(
-                             std::vector<std::pair<int, double>>{{0, 0}, {1, 1}}, stamped),
-                         scene_, "listed");
+    ListedFrames source({{0, 0}, {1, 1}}, stamped);
+    source.set_label("listed", "listed.so");
     while (source.next()) {
     }
   };

@@ -9,7 +9,6 @@
 #include "base/exported.hpp"
 
 namespace hypotrack {
-inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A sum of durations that several threads may add to.
 class TimeSum {
@@ -20,10 +19,12 @@ class TimeSum {
   /// Adds the duration of its life to a sum.
   class Scope {
    public:
-    explicit Scope(TimeSum& sum) : sum_(sum) {}
+    /// A null sum measures nothing.
+    explicit Scope(TimeSum* sum) : sum_(sum) {}
     ~Scope() {
+      if (!sum_) return;
       const auto duration = std::chrono::steady_clock::now() - begin_;
-      sum_.nanoseconds_.fetch_add(
+      sum_->nanoseconds_.fetch_add(
           std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count(),
           std::memory_order_relaxed);
     }
@@ -31,7 +32,7 @@ class TimeSum {
     Scope& operator=(const Scope&) = delete;
 
    private:
-    TimeSum& sum_;
+    TimeSum* sum_;
     std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   };
 
@@ -44,6 +45,8 @@ struct TermTimes {
   TimeSum prepare;
   TimeSum cost;  ///< costs, residuals and their slopes
 };
+
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The times of a term of a scene.
 struct NamedTermTimes {

@@ -1,4 +1,4 @@
-#include "session/frame_clock.hpp"
+#include "tile/frame_clock.hpp"
 
 #include <algorithm>
 
