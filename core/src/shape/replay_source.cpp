@@ -8,12 +8,14 @@ namespace hypotrack::internal {
 ReplaySource::ReplaySource(const Source& from, std::vector<Frame> frames)
     : cameras_(from.cameras()),
       frame_rate_(from.frame_rate()),
+      live_(from.live()),
       count_(static_cast<int>(frames.size())),
       frames_(std::move(frames)) {}
 
 ReplaySource::ReplaySource(std::unique_ptr<Source> from, std::vector<Frame> frames)
     : cameras_(from->cameras()),
       frame_rate_(from->frame_rate()),
+      live_(from->live()),
       count_(from->frame_count()),
       rest_(std::move(from)),
       frames_(std::move(frames)) {}

@@ -23,11 +23,13 @@ class ReplaySource final : public Source {
   double do_frame_rate() const override { return frame_rate_; }
   std::optional<int> do_frame_count() const override { return count_; }
   std::optional<Frame> do_next() override;
+  bool do_live() const override { return live_; }
   std::vector<std::string> do_notes() const override;
   std::vector<std::string> do_statistics() const override;
 
   std::vector<Camera> cameras_;
   double frame_rate_;
+  bool live_;
   std::optional<int> count_;
   std::unique_ptr<Source> rest_;
   std::vector<Frame> frames_;

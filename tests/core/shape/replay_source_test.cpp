@@ -9,6 +9,7 @@ namespace {
 class Counting final : public Source {
  public:
   double gap = 0;  ///< s
+  bool is_live = false;
 
  private:
   const std::vector<Camera>& do_cameras() const override { return cameras_; }
@@ -21,6 +22,7 @@ class Counting final : public Source {
     frame.time = frame.index / 5.0 + (frame.index > 0 ? gap : 0);
     return frame;
   }
+  bool do_live() const override { return is_live; }
   std::vector<std::string> do_notes() const override { return {"a setting was refused"}; }
   std::vector<std::string> do_statistics() const override {
     return {std::to_string(next_) + " frames"};
@@ -63,6 +65,14 @@ TEST(ReplaySource, SaysWhatItsSourceSays) {
   EXPECT_EQ(all.notes(), std::vector<std::string>{"a setting was refused"});
   indices_of(all);
   EXPECT_EQ(all.statistics(), std::vector<std::string>{"10 frames"});
+}
+
+TEST(ReplaySource, IsLiveIfItsSourceIs) {
+  auto source = std::make_unique<Counting>();
+  EXPECT_FALSE(ReplaySource(*source, {}).live());
+  source->is_live = true;
+  EXPECT_TRUE(ReplaySource(*source, {}).live());
+  EXPECT_TRUE(ReplaySource(std::move(source), {}).live());
 }
 
 TEST(ReplaySource, TakesAShortSourceAsItIs) {
