@@ -114,10 +114,6 @@ void check_outputs(const std::vector<NamedOutput>& outputs) {
   own_columns(outputs);
 }
 
-}  // namespace hypotrack::internal
-
-namespace hypotrack::internal {
-
 /// The run as one of its outputs sees it.
 class RunOutput::Context final : public OutputContext {
  public:
