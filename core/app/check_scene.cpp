@@ -74,7 +74,8 @@ CheckedScene check_scene(const std::filesystem::path& file, std::span<const std:
   for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   if (usable) {
     tell_notes(*session.source, tracker, first);
-    tell_faults(*session.source, tracker, first);
+    // A cell of a study needs no further frames: they would be drawn anew for each.
+    if (!first_frames) tell_faults(*session.source, tracker, first);
   }
   checked.backend = tracker.backend();
   checked.resolved = std::move(session.resolved);

@@ -68,26 +68,23 @@ void keep_freed_memory() {
   (void)mallopt(M_TOP_PAD, 16 << 20);
 }
 
-/// Returns the bytes of images that a worker keeps: the recordings of a seed of a study.
+/// Returns the bytes of images that the worker of a study keeps: the recordings of a seed.
 std::size_t kept_bytes() {
-  constexpr std::size_t kMost = std::size_t{4} << 30, kShare = 16;  // of the memory
+  constexpr std::size_t kMost = std::size_t{4} << 30;
+  constexpr std::size_t kShare = 64;  // of the memory, for one of up to eight GPUs
   return std::min(kMost, memory_size() / kShare);
 }
 
 /// Makes the jobs that come through a socket, each in a thread, and answers.
 class Worker {
  public:
-  Worker(std::optional<int> gpu, const CommonOptions& common) : gpu_(gpu), common_(common) {
-    constexpr std::size_t kFrames = 16;  // a study has as many sources or fewer
-    first_frames_.keep(kFrames);
-  }
+  Worker(std::optional<int> gpu, const CommonOptions& common) : gpu_(gpu), common_(common) {}
 
   void serve() {
     keep_freed_memory();
     cv::setNumThreads(1);  // its threads are one per core, whatever the runs' own may be
     if (!take_gpu()) return;
     keep_imported_meshes();
-    keep_read_images(kept_bytes());
     LineBuffer lines;
     std::array<char, 4096> chunk;
     for (;;) {
@@ -117,8 +114,9 @@ class Worker {
       answer({Kind::absent, why});
       return false;
     }
-    // Before threads make images; a gibibyte is for those that are not kept.
-    cuda::page_lock_images(*gpu_, kept_bytes() + (std::size_t{1} << 30));
+    // Before threads make images. Blocks are up to a quarter larger than images; a gibibyte is for
+    // those that are not kept.
+    cuda::page_lock_images(*gpu_, kept_bytes() / 4 * 5 + (std::size_t{1} << 30));
     std::string name = cuda::Device(*gpu_).name();
     if (!cuda::claim_gpu(*gpu_)) name += ", which another hypotrack uses, too";
     answer({Kind::ready, name});
@@ -152,9 +150,19 @@ class Worker {
     return answer;
   }
 
+  /// Keeps what the cells of a study share, which begins with checks: first frames for those, then
+  /// images for the runs.
+  void keep_for(const Job& job) {
+    constexpr std::size_t kFrames = 16;  // different ones at a time
+    if (!job.check) return first_frames_.keep(0);
+    first_frames_.keep(kFrames);
+    keep_read_images(kept_bytes());
+  }
+
   /// Returns the exit code that a process of the run would have.
   int run(const Job& job, LoggedRun& watcher) {
     PluginLoader plugins(common_.plugin_path);
+    keep_for(job);
     if (job.check) {
       watcher.say(check_scene(job.scene, job.set, plugins, std::nullopt, &first_frames_).backend);
       return 0;

@@ -194,7 +194,10 @@ Watcher::~Watcher() = default;
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
              const Launch& launch, const std::map<std::size_t, int>& gpus, Crew& crew,
              Recordings& recordings, Watcher& watcher) {
-  return Execution(folder, plan, runs, launch, gpus, crew, recordings, watcher).work();
+  const bool complete =
+      Execution(folder, plan, runs, launch, gpus, crew, recordings, watcher).work();
+  if (!complete) recordings.stop();
+  return complete;
 }
 
 }  // namespace hypotrack::study::internal

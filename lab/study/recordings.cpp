@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -99,8 +100,10 @@ bool Recordings::take_in_hand(const Wanted& wanted, bool may_start) {
   if (!claimed) return false;  // another process makes it
   if (is_there()) return there_.insert(wanted.id).second;
   Subprocess::Command command = synth_command(plan_, plan_.runs[wanted.run], launch_, *claimed);
-  if (const auto& gpus = launch_.gpus; !gpus.empty())  // in turn, so that no GPU's runs wait more
-    command.variables.push_back(fmt::format("HYPOTRACK_GL_GPU={}", gpus[begun_++ % gpus.size()]));
+  // GPUs draw in turn, so that no GPU's runs wait more.
+  constexpr const char* kDraws = "HYPOTRACK_GL_GPU";
+  if (const auto& gpus = launch_.gpus; !gpus.empty() && !std::getenv(kDraws))
+    command.variables.push_back(fmt::format("{}={}", kDraws, gpus[begun_++ % gpus.size()]));
   pool_.start(wanted.run, std::move(command));
   working_.emplace(wanted.run, *std::move(claimed));
   return true;
@@ -120,9 +123,13 @@ void Recordings::finish(const Ended& ended) {
   made_.insert(ids_.at(ended.key));
 }
 
-void Recordings::discard() {
+void Recordings::stop() {
   pool_ = ProcessPool(0);
   working_.clear();
+}
+
+void Recordings::discard() {
+  stop();
   if (folder_.has_plan()) return;
   std::error_code ignored;
   for (const std::string& id : made_)
@@ -146,14 +153,17 @@ RecordingsAhead::RecordingsAhead(const StudyFolder& folder, Recordings& recordin
     : folder_(folder), recordings_(recordings) {
   if (runs.empty() || !recordings.are_wanted()) return;
   first_ = std::ranges::min(runs);
-  room_ = static_cast<std::size_t>(launch.spare_cores / launch.threads);
-  if (room_ > 0) folder.open();
+  const int room = std::min(launch.jobs, launch.spare_cores / launch.threads);
+  if (room > 0 && folder.open()) room_ = static_cast<std::size_t>(room);
 }
 
 RecordingsAhead::~RecordingsAhead() {
   if (kept_ || room_ == 0) return;
-  recordings_.discard();
-  folder_.abandon();
+  try {
+    recordings_.discard();
+    folder_.abandon();
+  } catch (const std::exception&) {  // the folder is gone, and a message is on its way
+  }
 }
 
 void RecordingsAhead::go_on() {

@@ -38,7 +38,7 @@ class Recordings {
 
   /// Returns true if a run may begin: its recording is there, or it reads none.
   bool are_there_for(std::size_t run) const;
-  /// Returns whether some are neither there nor begun.
+  /// Returns whether some were not looked for yet.
   bool are_wanted() const { return !wanted_.empty(); }
   /// Returns the number of recordings being made by this process.
   std::size_t size() const { return pool_.size(); }
@@ -46,8 +46,9 @@ class Recordings {
   /// `ahead` others. Puts complete ones into place. Returns false if nothing happened. Throws
   /// DataError with the error of a failed recording.
   bool go_on(std::size_t next, std::size_t room, std::size_t ahead);
-  /// Ends the recordings being made, and removes those that were unless another process has begun
-  /// the study.
+  /// Ends the recordings being made.
+  void stop();
+  /// Stops, and removes the recordings that were made unless another process has begun the study.
   void discard();
   /// Removes the recording of a run if its noise was redrawn and the study has all runs that read
   /// it.
@@ -79,8 +80,8 @@ class Recordings {
   ProcessPool pool_;
 };
 
-/// Makes the first recordings of a study on cores that no run uses, while its cells are checked.
-/// Takes them back at its end unless the study begins.
+/// Makes the first recordings of a study in a new folder, on cores that no run uses, while its
+/// cells are checked. Takes them back at its end unless the study begins.
 class RecordingsAhead {
  public:
   /// `runs`: those to be made. All arguments must outlive the object.

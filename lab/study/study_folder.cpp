@@ -81,9 +81,11 @@ bool StudyFolder::has_plan() const { return std::filesystem::exists(folder_ / kP
 
 bool StudyFolder::begun() const { return read_text(folder_ / kPlanFile) == plan_text(*plan_); }
 
-void StudyFolder::open() const {
+bool StudyFolder::open() const {
+  const bool there = std::filesystem::exists(std::filesystem::symlink_status(folder_));
   make_folder(working());
   if (!open_) open_ = std::make_shared<const OpenFolder>(folder_);
+  return !there;
 }
 
 void StudyFolder::begin() const {

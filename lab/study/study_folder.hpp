@@ -35,14 +35,15 @@ class StudyFolder {
   const std::filesystem::path& path() const { return folder_; }
   /// Returns whether a process has begun exactly this plan.
   bool begun() const;
-  /// Makes the folder, so that recordings can be made in it. Throws OutputError.
-  void open() const;
+  /// Makes the folder, so that recordings can be made in it. Returns false if it was there before:
+  /// somebody else may count on it. Throws OutputError.
+  bool open() const;
   /// Opens the folder, writes the plan and removes leftovers of killed processes. Throws
   /// OutputError.
   void begin() const;
   /// Returns whether a process has begun a study here, which others may work on.
   bool has_plan() const;
-  /// Removes what an opened folder without a plan holds beside the work of other processes.
+  /// Removes a folder that open() made, without the work of other processes, unless it has a plan.
   void abandon() const;
 
   RunState state(const PlannedRun& run) const;

@@ -2,7 +2,7 @@
 """Builds the site of the documentation: build_site.py ROOT BUILD_DIR OUT [--gallery FOLDER].
 
 ROOT is the source tree, BUILD_DIR its build with the Python package, OUT the folder for the site. It makes Markdown pages
-in a temporary folder and gives them to MkDocs; the gallery's pictures are made before (gallery.sh).
+in a temporary folder and gives them to MkDocs; the gallery's pictures are made before (gallery.py).
 """
 import argparse
 import json

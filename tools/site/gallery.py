@@ -66,10 +66,14 @@ def make(hypotrack, scene, frames, picture):
         pictures = next(recording.glob("left_*[0-9].*")).suffix
         part = f"{part_of_interest(recording, size_of(result / 'overlay.mp4'))},scale={PANE[0]}:{PANE[1]}"
         picture.parent.mkdir(parents=True, exist_ok=True)
-        return run(["ffmpeg", "-v", "error", "-y", "-framerate", "30", "-i", recording / f"left_%06d{pictures}", "-i",
+        drawn = picture.with_suffix(".part.webp")  # what an interrupt leaves is no picture
+        failed = run(["ffmpeg", "-v", "error", "-y", "-framerate", "30", "-i", recording / f"left_%06d{pictures}", "-i",
                     result / "overlay.mp4", "-filter_complex",
                     f"[0]{part}[a];[1]settb=1/30,setpts=N,{part}[b];[a][b]hstack,framestep={EVERY}",
-                    "-c:v", "libwebp_anim", "-loop", "0", "-q:v", "50", "-compression_level", "6", picture])
+                    "-c:v", "libwebp_anim", "-loop", "0", "-q:v", "50", "-compression_level", "6", drawn])
+        if not failed:
+            drawn.rename(picture)
+        return failed
 
 
 def summary(scene):

@@ -15,7 +15,7 @@ namespace hypotrack {
 // Readers of recorded images, for sources. They never throw: an unusable image is a problem of its
 // frame, not the end of the run. Missing, empty, truncated and undecodable files are always
 // problems. Pictures are turned as EXIF says, as viewers show them: cameras are calibrated for
-// that.
+// that. The pixels may be those of other readers of the file, too: copy before you change them.
 
 /// An image, or the reason why it is missing.
 struct ReadImage {

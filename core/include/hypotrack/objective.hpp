@@ -167,8 +167,8 @@ class HYPOTRACK_API Objective : public PluginObject {
   const ResidualTerm* residual_term() const;
 
   /// Returns the value of cost() (up to rounding) and writes the residuals of residual_term().
-  /// Requires a residual_term(). Override it if one pass over the pixels gives both. Throws
-  /// PluginError if a residual is not finite although the cost is.
+  /// Requires a residual_term(). Override do_cost_and_residuals() if one pass over the pixels gives
+  /// both. Throws PluginError if a residual is not finite although the cost is.
   double cost_and_residuals(const RenderedHypothesis& hypothesis, std::span<float> residuals) const;
 
   /// Returns the state from which to search the prepared frame first, in place of

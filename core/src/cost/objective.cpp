@@ -94,7 +94,9 @@ void Objective::costs(std::span<const RenderedHypothesis> hypotheses,
 
 const ResidualTerm* Objective::residual_term() const {
   const ResidualTerm* term = detail::call_plugin(*this, [&] { return do_residual_term(); });
-  if (term) term->owner_.store(this, std::memory_order_relaxed);
+  // An inner objective's residuals stay those of the objective that a scene names.
+  if (term && (!label().empty() || !term->owner_.load(std::memory_order_relaxed)))
+    term->owner_.store(this, std::memory_order_relaxed);
   return term;
 }
 

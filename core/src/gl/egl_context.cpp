@@ -8,6 +8,7 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -40,8 +41,12 @@ std::atomic<int> preferred_gpu = -1;  // -1: any
 /// Returns the number of the GPU that is to draw; -1: any.
 int wanted_gpu() {
   const char* const named = std::getenv("HYPOTRACK_GL_GPU");
-  const auto number = named ? detail::parse_integer(named) : std::nullopt;
-  return number ? static_cast<int>(*number) : preferred_gpu.load();
+  if (!named) return preferred_gpu;
+  const auto number = detail::parse_integer(named);
+  if (!number || *number < 0 || *number > std::numeric_limits<int>::max())
+    throw DeviceError(fmt::format(
+        "HYPOTRACK_GL_GPU is '{}'; expected the number of the GPU that is to draw, as 0", named));
+  return static_cast<int>(*number);
 }
 
 bool has_word(const char* words, std::string_view word) {

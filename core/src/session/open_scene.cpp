@@ -31,6 +31,7 @@ class Opening {
         root_(std::move(scene.root)),
         plugins_(&plugins),
         record_(dump_params(file_)) {
+    gl::prefer_gpu(file_.evaluate.device);
     session_.plugin_notes = std::make_shared<PluginNotes>();
     session_.notes = std::move(scene.notes);
   }
@@ -138,7 +139,6 @@ void Opening::models() {
 
 void Opening::source() {
   if (!file_.source.defined()) detail::fail_at(root_.get("source"), "required key is missing");
-  gl::prefer_gpu(file_.evaluate.device);
   YamlDocument record;
   auto made = make<Source>(file_.source, record);
   made->check_for(*session_.scene);

@@ -17,7 +17,8 @@ class PsoPlugin final : public hypotrack::Pso {
                                       const hypotrack::SearchRegion& region,
                                       const hypotrack::Budget& budget,
                                       std::uint64_t seed) override {
-    // Whoever watches a search sees the batches of the swarm on the host, which is the same search.
+    // Whoever watches a search sees the batches of a swarm on the host: the same search, up to
+    // rounding.
     if (cost.is_watched() || !cost.device()) return Pso::minimize(cost, region, budget, seed);
     if (!on_gpu_) on_gpu_ = std::make_unique<hypotrack::PsoCuda>(params_, where_);
     return on_gpu_->minimize(cost, region, budget, seed);

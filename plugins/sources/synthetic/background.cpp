@@ -149,8 +149,8 @@ Backgrounds::Backgrounds(const BackgroundParams& params, const std::vector<Camer
 }
 
 const std::vector<RenderedView>& Backgrounds::views() {
-  for (Layer& layer : layers_) draw_over(views_, std::move(layer.meshes), cameras_, layer.style);
-  layers_.clear();
+  for (; !layers_.empty(); layers_.erase(layers_.begin()))
+    draw_over(views_, layers_.front().meshes, cameras_, layers_.front().style);
   return views_;
 }
 

@@ -2,7 +2,7 @@
 """Builds the site and checks it: check_site.py SOURCE_DIR BUILD_DIR, or check_site.py --self-test.
 
 Fails if a link or its anchor leads nowhere, if a page or style sheet loads anything from another address, if a page
-cannot be reached from the first one, or if a page of docs/, a plugin or a class has no page. Exit code 77: a package of
+cannot be reached from the first one, or if a page of docs/, a plugin or the class Tracker has no page. Exit code 77: a package of
 scripts/packages-site.txt is missing.
 """
 import re
