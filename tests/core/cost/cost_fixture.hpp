@@ -123,7 +123,7 @@ class SelfPosed : public Model {
   bool do_poses_itself() const override { return true; }
   void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
                Eigen::Matrix3Xd& landmarks) const override {
-    Model::pose(parameters, vertices, landmarks);
+    Model::do_pose(parameters, vertices, landmarks);
     vertices.conservativeResize(3, vertices.cols() - missing_);
   }
 

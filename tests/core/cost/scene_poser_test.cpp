@@ -23,7 +23,7 @@ class Mover final : public Model {
                Eigen::Matrix3Xd& landmarks) const override {
     vertices = (world_from_model(parameters).cast<float>() * data().mesh.vertices).eval();
     vertices.row(1) *= 1.5f;
-    landmarks.resize(3, 0);
+    landmarks.setZero(3, std::ssize(data().landmarks));
   }
 };
 

@@ -193,7 +193,8 @@ TEST_F(CompareFailureTest, ARecordingThatFailsIsNamedWithItsPlaceInTheStudy) {
 }
 
 TEST_F(CompareFailureTest, RecordingsMadeDuringTheChecksGoWithARefusedStudy) {
-  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "needs a core beside that of the check";
+  if (std::thread::hardware_concurrency() < 2)
+    GTEST_SKIP() << "needs a core beside that of the check";
   const std::string text =
       replaced(study(), "[4, 8]", "[4, 5, 6, 7, 8, 9, 10, -1]") + "recordings: true\n";
   Program program(start(text, "out", {"--jobs", "1", "--threads", "1"}));

@@ -53,7 +53,7 @@ class Failing : public hypotrack::Model {
   bool do_poses_itself() const override { return true; }
   void do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
                Eigen::Matrix3Xd& landmarks) const override {
-    Model::pose(parameters, vertices, landmarks);
+    Model::do_pose(parameters, vertices, landmarks);
     if (parameters[0] < -1e-4) fail(vertices, landmarks);
   }
 

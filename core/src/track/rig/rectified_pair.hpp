@@ -37,9 +37,9 @@ class RectifiedPair {
   double focal_ = 0, baseline_ = 0;  ///< pixels, metres
   Eigen::Vector2d center_;
   Camera second_;
-  Eigen::Matrix2d second_from_small_;  ///< directions in the pictures
-  int shrink_ = 1;                     ///< pixels of a picture that are averaged
-  std::array<cv::Mat, 2> x_, y_;       ///< in the shrunken pictures
+  Eigen::Matrix2d second_from_small_;            ///< directions in the pictures
+  int shrink_ = 1;                               ///< pixels of a picture that are averaged
+  std::array<cv::Mat, 2> x_, y_;                 ///< in the shrunken pictures
   std::array<std::optional<cv::Rect>, 2> part_;  ///< of those, where no pixel is between others
 };
 
