@@ -122,8 +122,7 @@ std::vector<std::string> move_former_keys(YamlNode& document) {
       document.kind == YamlNode::Kind::kMap ? document.find(kTracker) : nullptr;
   if (!tracker || tracker->value->kind != YamlNode::Kind::kMap) return {};
   std::vector<std::string> moved;
-  const std::unique_ptr<YamlNode> map = std::move(tracker->value);
-  std::erase_if(document.entries, [](const auto& entry) { return entry.key == kTracker; });
+  YamlNode* const map = tracker->value.get();  // stays in the document while places are told
   if (YamlNode::Entry* const evidence = map->find(kEvidence)) {
     move_evidence(document, *evidence->value);
     moved.push_back(evidence->value->text == "true" ? "`tracker.evidence: true` is not needed"
@@ -146,8 +145,10 @@ std::vector<std::string> move_former_keys(YamlNode& document) {
           entry.key, did_you_mean(entry.key, names_of(kFormerKeys))));
     }
   }
+  const std::string place = place_of(*map);
+  std::erase_if(document.entries, [&](const auto& entry) { return entry.value.get() == map; });
   if (moved.empty()) return {};
-  return {fmt::format("{}: {} now; `hypotrack migrate FILE...` rewrites files", place_of(*map),
+  return {fmt::format("{}: {} now; `hypotrack migrate FILE...` rewrites files", place,
                       fmt::join(moved, ", "))};
 }
 

@@ -112,6 +112,22 @@ TEST(ConfigValue, TakesOverridesReferencesAndTrackers) {
   EXPECT_EQ(scene.get("status").get("patience").scalar(), "1");
 }
 
+TEST(ConfigValue, FormerKeysAreNamedByTheirKeyPath) {
+  std::vector<std::string> notes;
+  const auto scene = [&](const Value& tracker) {
+    return Value::map({{"seed", 1}, {"tracker", tracker}})
+        .document("my scene", "/folder")
+        .as_scene({}, &notes);
+  };
+  EXPECT_EQ(scene(Value::map({{"patience", 1}})).get("status").get("patience").scalar(), "1");
+  EXPECT_THAT(notes, testing::ElementsAre(StartsWith("my scene: tracker: `tracker.patience` is ")));
+  const auto error = [&](const char* key, const Value& value) {
+    return message_of<ConfigError>([&] { (void)scene(Value::map({{key, value}})); });
+  };
+  EXPECT_THAT(error("patient", 1), StartsWith("my scene: tracker.patient: found the key"));
+  EXPECT_THAT(error("evidence", "perhaps"), StartsWith("my scene: tracker.evidence: "));
+}
+
 TEST(ConfigValue, ReferencesToNothingNameTheKeyPath) {
   const auto error = [](const Value& value) {
     return message_of<ConfigError>([&] { (void)value.document("my scene", "/folder").as_scene(); });
