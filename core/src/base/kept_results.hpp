@@ -46,7 +46,7 @@ class KeptResults {
     make_room();
   }
 
-  /// Returns false if there is nothing to gain from a key.
+  /// Returns whether results are kept.
   bool keeps() const { return most_ > 0; }
 
   /// Returns a kept result, or makes it with `make` while others who want it wait. Throws what

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "base/kept_results.hpp"
-#include "camera/kept_images.hpp"
 #include "camera/orientation.hpp"
 
 namespace hypotrack {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -39,6 +40,10 @@ int file_orientation(const std::filesystem::path& file);
 
 /// Returns what to add to a message on a picture's size if a turn by 90 degrees explains it.
 std::string advice_on_turn(int width, int height, int expected_width, int expected_height);
+
+/// Keeps up to `bytes` of the pixels that read_color(), read_mask() and read_depth() return from
+/// now on, for later readers of the same files: runs of a study mostly share their recordings.
+void keep_read_images(std::size_t bytes);
 
 }  // namespace internal
 }  // namespace hypotrack

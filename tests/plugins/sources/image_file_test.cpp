@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "camera/kept_images.hpp"
+#include "camera/orientation.hpp"
 #include "hypotrack/media.hpp"
 #include "test_paths.hpp"
 
