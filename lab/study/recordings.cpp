@@ -136,7 +136,7 @@ void Recordings::discard() {
     std::filesystem::remove_all(folder_.recording_path(id), ignored);
 }
 
-void Recordings::remove_if_read(std::size_t run) const {
+void Recordings::remove_if_read(std::size_t run) {
   const auto id = ids_.find(run);
   if (id == ids_.end()) return;
   const auto readers = readers_.find(id->second);
@@ -144,8 +144,15 @@ void Recordings::remove_if_read(std::size_t run) const {
   const bool read = std::ranges::all_of(readers->second, [&](std::size_t reader) {
     return folder_.state(plan_.runs[reader]) == RunState::ok;
   });
-  std::error_code ignored;  // another process may be faster
-  if (read) std::filesystem::remove_all(folder_.recording_path(id->second), ignored);
+  auto claimed = read ? folder_.claim_recording(id->second) : std::nullopt;
+  if (!claimed) return;  // another process is faster
+  std::error_code error;
+  std::filesystem::rename(folder_.recording_path(id->second), claimed->working() / "read", error);
+  if (error) return;
+  // To remove gigabytes takes seconds, in which runs could begin.
+  removals_.push_back(std::async(std::launch::async, [folder = *std::move(claimed)]() mutable {
+    const RunFolder removed = std::move(folder);
+  }));
 }
 
 RecordingsAhead::RecordingsAhead(const StudyFolder& folder, Recordings& recordings,

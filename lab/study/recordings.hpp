@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <future>
 #include <map>
 #include <set>
 #include <string>
@@ -50,9 +51,9 @@ class Recordings {
   void stop();
   /// Stops, and removes the recordings that were made unless another process has begun the study.
   void discard();
-  /// Removes the recording of a run if its noise was redrawn and the study has all runs that read
-  /// it.
-  void remove_if_read(std::size_t run) const;
+  /// Removes the recording of a run, in a thread of its own, if its noise was redrawn and the study
+  /// has all runs that read it.
+  void remove_if_read(std::size_t run);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -78,6 +79,7 @@ class Recordings {
   Clock::time_point next_look_;
   std::map<std::size_t, RunFolder> working_;  ///< outlives the processes of pool_
   ProcessPool pool_;
+  std::vector<std::future<void>> removals_;
 };
 
 /// Makes the first recordings of a study in a new folder, on cores that no run uses, while its
