@@ -113,7 +113,7 @@ bool Execution::go_on_recording() {
   const auto next = std::ranges::min(waiting_, {}, &Waiting::run).run;
   try {
     return recordings_.go_on(next, room() + most_beside_ - beside(),
-                             idle_ ? jobs_ : jobs_ / kShareAhead);
+                             idle_ ? jobs_ : std::max(jobs_ / kShareAhead, most_beside_));
   } catch (const DataError& error) {
     failure_ = std::current_exception();  // to be thrown when the runs that have begun have ended
     if (!working_.empty()) watcher_.say(fmt::format("failed: {}", error.what()));
@@ -129,7 +129,7 @@ std::deque<Execution::Waiting>::iterator Execution::next_run() {
     if (each.retry <= now && recordings_.are_there_for(each.run)) ready.push_back(each.run);
   if (ready.empty()) return waiting_.end();
   std::ranges::sort(ready);  // runs that another process makes come back at the end
-  return std::ranges::find(waiting_, order_.next(ready), &Waiting::run);
+  return std::ranges::find(waiting_, order_.next(ready, crew_.next_gpu()), &Waiting::run);
 }
 
 /// Starts a waiting run that no other process makes. Returns false if nothing can start now.

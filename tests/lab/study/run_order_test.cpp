@@ -16,6 +16,10 @@ class RunOrderTest : public StudyTest {
       "title: t\nscenes: {box: {file: box.yaml}}\ngrid: {optimizer.particles: [4, 8, 16]}\n"
       "seeds: 2");
   study::RunOrder order_{plan_};
+  /// Runs 0 and 1 are of the box, 2 and 3 of the hand.
+  study::Plan two_scenes_ = plan(
+      "title: t\nscenes: {box: {file: box.yaml}, hand: {file: hand.yaml}}\n"
+      "grid: {optimizer.particles: [4, 8]}");
 };
 
 TEST_F(RunOrderTest, IsThatOfThePlanWhileNoTimeIsKnown) {
@@ -34,6 +38,21 @@ TEST_F(RunOrderTest, BeginsWithCellsWithoutATime) {
   order_.took(0, 1.0);
   order_.took(2, 2.0);
   EXPECT_EQ(order_.next(std::array<std::size_t, 3>{3, 4, 5}), 4U);
+}
+
+TEST_F(RunOrderTest, RunsThatBeginTogetherReadDifferentPictures) {
+  study::RunOrder order(two_scenes_);
+  EXPECT_EQ(order.next(std::array<std::size_t, 4>{0, 1, 2, 3}), 0U);
+  EXPECT_EQ(order.next(std::array<std::size_t, 3>{1, 2, 3}), 2U);
+  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}), 1U);
+}
+
+TEST_F(RunOrderTest, AGpuKeepsToItsPicturesWhileItCan) {
+  study::RunOrder order(two_scenes_);
+  EXPECT_EQ(order.next(std::array<std::size_t, 4>{0, 1, 2, 3}, 0), 0U);
+  EXPECT_EQ(order.next(std::array<std::size_t, 3>{1, 2, 3}, 1), 2U);
+  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}, 1), 3U);
+  EXPECT_EQ(order.next(std::array<std::size_t, 1>{1}, 1), 1U);  // helps the other one
 }
 
 TEST_F(RunOrderTest, FinishesASeedBeforeTheNext) {

@@ -44,6 +44,8 @@ class Crew {
   std::string start_gpus(bool all_needed);
   /// Returns true if a further job may start.
   bool has_room() const { return size() < static_cast<std::size_t>(settings_.jobs); }
+  /// Returns the GPU of the settings that takes the next job; none if it is not known.
+  std::optional<int> next_gpu() const { return workers_.next_gpu(); }
   /// Starts a job, or lets it wait for its GPU. Throws OutputError.
   void start(Job job);
   /// Removes and returns a job that has ended, if any. Its log holds what its run said.

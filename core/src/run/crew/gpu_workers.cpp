@@ -208,11 +208,11 @@ void GpuWorkers::finish(const Seat& seat, const Held& held, Subprocess::End end,
   ended_.push_back({held.job.key, end, time.count(), limit_s, seat.gpu.number});
 }
 
-bool GpuWorkers::may_take(const Seat& seat, const Held& held) const {
+/// Returns whether a GPU may get a further job, which is to be alone there or not.
+bool GpuWorkers::may_take(const Seat& seat, bool alone) const {
   if (seat.gone() || seat.closing) return false;
-  const auto alone = [](const Held& each) { return each.alone; };
-  if (held.alone) return seat.running.empty();
-  if (std::ranges::any_of(seat.running, alone)) return false;
+  if (alone) return seat.running.empty();
+  if (std::ranges::any_of(seat.running, &Held::alone)) return false;
   const std::size_t gpus = std::max<std::size_t>(1, settings_.gpus.size());
   const std::size_t share = (static_cast<std::size_t>(settings_.jobs) + gpus - 1) / gpus;
   return seat.running.size() < share;
@@ -224,11 +224,21 @@ GpuWorkers::Seat* GpuWorkers::free_seat(const Held& held) {
   const std::vector<int> own{*held.job.gpu};
   for (const int gpu : settings_.gpus.empty() ? own : settings_.gpus) {
     Seat& each = seat(gpu);
-    if (!may_take(each, held)) continue;
+    if (!may_take(each, held.alone)) continue;
     if (!each.worker) start_worker(each);
     if (each.ready && (!best || each.running.size() < best->running.size())) best = &each;
   }
   return best;
+}
+
+std::optional<int> GpuWorkers::next_gpu() const {
+  const Seat* best = nullptr;
+  for (const int gpu : settings_.gpus) {
+    const auto it = seats_.find(gpu);
+    if (it == seats_.end() || !it->second.ready || !may_take(it->second)) continue;
+    if (!best || it->second.running.size() < best->running.size()) best = &it->second;
+  }
+  return best ? std::optional(best->gpu.number) : std::nullopt;
 }
 
 /// Returns false, after it noted the failure, if every GPU that could make the run is gone.

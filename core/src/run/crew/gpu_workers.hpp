@@ -38,6 +38,8 @@ class GpuWorkers {
 
   /// Starts a worker on each of the settings' GPUs and waits for their answers, in their order.
   std::vector<GpuState> start();
+  /// Returns the GPU of the settings that takes the next job; none if it is not known.
+  std::optional<int> next_gpu() const;
   /// Takes a job with a GPU.
   void add(Job job);
   /// Returns a job that has ended, if any. Throws OutputError if a worker cannot be started.
@@ -84,7 +86,7 @@ class GpuWorkers {
   void drop(const Held& held);
   void finish(const Seat& seat, const Held& held, Subprocess::End end, double limit_s = 0);
   Seat* free_seat(const Held& held);
-  bool may_take(const Seat& seat, const Held& held) const;
+  bool may_take(const Seat& seat, bool alone = false) const;
   bool can_be_made(const Held& held);
   void deal();
 
