@@ -1,5 +1,7 @@
 #include "track/faults/picture_checks.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
@@ -66,11 +68,11 @@ PictureChecks::PictureChecks(std::vector<Camera> cameras, bool with_depth)
 
 ViewFault PictureChecks::check(const Frame& frame) {
   SmallPictures now(frame.views.size());
-  for (std::size_t v = 0; v < now.size(); ++v) {
+  tbb::parallel_for(std::size_t{0}, now.size(), [&](std::size_t v) {
     const View& view = frame.views[v];
     if (!view.color.empty() && view.depth.empty() && view.color.type() == CV_8UC3)
       now[v] = std::make_shared<const SmallPicture>(shrink(view.color));
-  }
+  });
   jumps_.assign(now.size(), 1);
   drifts_ = jumps_;
   ViewFault found = find(now);

@@ -15,8 +15,20 @@ PictureWatch::PictureWatch(const std::vector<Camera>& cameras,
 ViewFault PictureWatch::check(const Frame& frame) {
   const ProfiledPart part("check pictures");
   const ViewFault found = checks_ ? checks_->check(frame) : ViewFault{};
-  if (rig_ && !spoils_pictures(found.fault)) rig_->look(frame);
+  if (rig_ && !spoils_pictures(found.fault)) {
+    if (rig_->measures_rows())
+      rig_->look(frame);
+    else
+      beside_.run([this, frame] { rig_->look(frame); });
+  }
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
+}
+
+PictureWatch::FrameEnd::~FrameEnd() {
+  try {
+    watch_.beside_.wait();
+  } catch (...) {  // lack of memory: the frame teaches nothing
+  }
 }
 
 void PictureWatch::keep_brightness() {
@@ -35,6 +47,7 @@ void PictureWatch::tell_drifts(FrameSearch& search) const {
 bool PictureWatch::doubts_depth(const Solution& solution, const FrameSearch* search) {
   const ProfiledPart part("check rig");
   if (!rig_) return false;
+  beside_.wait();
   if (search && search->photometric().knows())
     rig_->look_at_colors(solution.frame, search->second_view_colors());
   return rig_->is_doubtful();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <oneapi/tbb/task_group.h>
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +27,7 @@ class PictureWatch {
                bool is_on);
 
   /// Returns the worst fault of the next frame. Call it with all frames that have views, in order.
+  /// It may go on to look at the frame beside the search: call it within a FrameEnd's life.
   ViewFault check(const Frame& frame);
   /// Takes the jump of brightness that check() found out of this frame and later ones.
   void keep_brightness();
@@ -39,10 +42,23 @@ class PictureWatch {
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_notes();
 
+  /// Waits at its end until nothing looks at a frame any more.
+  class FrameEnd {
+   public:
+    explicit FrameEnd(PictureWatch& watch) : watch_(watch) {}
+    ~FrameEnd();
+    FrameEnd(const FrameEnd&) = delete;
+    FrameEnd& operator=(const FrameEnd&) = delete;
+
+   private:
+    PictureWatch& watch_;
+  };
+
  private:
   std::optional<PictureChecks> checks_;
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;  ///< of a pair of views that are compared
+  tbb::task_group beside_;       ///< what of it runs beside the search
 };
 
 }  // namespace internal

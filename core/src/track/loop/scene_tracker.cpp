@@ -57,6 +57,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
 Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
   const ProfiledPart part("frame");
   Solution solution = judge_.unjudged(frame);
+  const PictureWatch::FrameEnd end(pictures_);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
     const auto [fault, view] = pictures_.check(frame);

@@ -28,6 +28,9 @@ class RigWatch {
 
   /// Takes the next frame as it came. Frames without two views of colour teach nothing.
   void look(const Frame& frame);
+  /// Returns whether look() may change now what applied_to() makes of frames. Otherwise both may
+  /// run at the same time.
+  bool measures_rows() const { return frames_ >= next_; }
   /// Takes the map from the second view's colours to the first's in a frame that was tracked.
   void look_at_colors(int frame, const ColorMap& colors);
 
