@@ -64,6 +64,25 @@ TEST(ImageFile, KeptImagesAreReadAnewWhereTheirFilesChange) {
   internal::keep_read_images(0);
 }
 
+TEST(ImageFile, HasThePixelsOfAJpegThatOpenCvDecodes) {
+  cv::Mat3b picture(53, 37);
+  cv::RNG(7).fill(picture, cv::RNG::UNIFORM, 0, 256);
+  const std::vector<std::vector<int>> kinds = {{},
+                                               {cv::IMWRITE_JPEG_QUALITY, 30},
+                                               {cv::IMWRITE_JPEG_PROGRESSIVE, 1},
+                                               {cv::IMWRITE_JPEG_OPTIMIZE, 1},
+                                               {cv::IMWRITE_JPEG_RST_INTERVAL, 2}};
+  for (const cv::Mat& image : {cv::Mat(picture), cv::Mat(picture.reshape(1))})
+    for (const std::vector<int>& kind : kinds) {
+      const std::vector<unsigned char> bytes = encode_image(".jpg", image, kind);
+      const cv::Mat read = decode_image(cv::Mat(bytes, false).reshape(1, 1), cv::IMREAD_UNCHANGED);
+      ASSERT_EQ(read.type(), image.type());
+      const int color = image.channels() == 3 ? cv::IMREAD_COLOR : cv::IMREAD_GRAYSCALE;
+      const cv::Mat expected = decode_image(cv::Mat(bytes, false).reshape(1, 1), color);
+      EXPECT_EQ(cv::norm(read, expected, cv::NORM_INF), 0);
+    }
+}
+
 /// Encodes a small picture and returns its bytes with another size in its header: 2 bytes for
 /// height and width each at some place behind a mark.
 std::string with_size(const char* format, std::string_view mark, std::size_t behind,

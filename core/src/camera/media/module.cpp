@@ -11,7 +11,12 @@ bool write(const std::string& file, const cv::Mat& image, const std::vector<int>
   return cv::imwrite(file, image, parameters);
 }
 
-cv::Mat decode(const cv::Mat& bytes, int flags) { return cv::imdecode(bytes, flags); }
+cv::Mat decode(const cv::Mat& bytes, int flags) {
+  constexpr int kAsStored = cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION;
+  if (flags == cv::IMREAD_UNCHANGED || flags == kAsStored)
+    if (cv::Mat image = decode_jpeg(bytes); !image.empty()) return image;
+  return cv::imdecode(bytes, flags);
+}
 
 std::vector<unsigned char> encode(const std::string& extension, const cv::Mat& image,
                                   const std::vector<int>& parameters) {
