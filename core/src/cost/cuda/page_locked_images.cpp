@@ -26,32 +26,35 @@ void* huge_pages(std::size_t bytes) {
   return block;
 }
 
-void* page_locked(std::size_t bytes, int device) {
+/// Returns page-locked memory of a device, or null.
+void* locked(std::size_t bytes, int device) {
+  cudaStreamCaptureMode mode = cudaStreamCaptureModeRelaxed;
+  if (cudaSetDevice(device) != cudaSuccess ||
+      cudaThreadExchangeStreamCaptureMode(&mode) != cudaSuccess)
+    return nullptr;
   void* const block = huge_pages(bytes);
-  if (!block) return nullptr;
-  bool done = false;
-  const auto reserve = [&] {
-    cudaStreamCaptureMode mode = cudaStreamCaptureModeRelaxed;
-    done = cudaSetDevice(device) == cudaSuccess &&
-           cudaThreadExchangeStreamCaptureMode(&mode) == cudaSuccess &&
-           cudaHostRegister(block, bytes, cudaHostRegisterPortable) == cudaSuccess;
-  };
-  try {
-    // Use a separate thread: the threads that make images may use another GPU or capture a graph,
-    // which this must not disturb.
-    std::thread(reserve).join();
-  } catch (const std::system_error&) {  // no thread
-  }
-  if (done) return block;
+  if (block && cudaHostRegister(block, bytes, cudaHostRegisterPortable) == cudaSuccess)
+    return block;
   std::free(block);
   return nullptr;
 }
 
+void* page_locked(std::size_t bytes, int device) {
+  void* block = nullptr;
+  try {
+    // Use a separate thread: the threads that make images may use another GPU or capture a graph,
+    // which this must not disturb.
+    std::thread([&] { block = locked(bytes, device); }).join();
+  } catch (const std::system_error&) {  // no thread
+  }
+  return block;
+}
+
 /// Makes the allocator, which is never destroyed because some images outlive everything else.
 PooledMatAllocator* make_allocator(int device, std::size_t most) {
-  constexpr std::size_t kAtOnce = 32 << 20;  // a driver locks few large blocks faster
-  auto* pool =
-      new BlockPool([device](std::size_t n) { return page_locked(n, device); }, most, kAtOnce);
+  constexpr std::size_t kShare = 256;  // for blocks of one size at once, which is faster
+  auto* pool = new BlockPool([device](std::size_t n) { return page_locked(n, device); }, most,
+                             most / kShare);
   return new PooledMatAllocator(*pool);
 }
 
