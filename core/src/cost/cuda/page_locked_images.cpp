@@ -22,6 +22,7 @@ void* huge_pages(std::size_t bytes) {
   void* const block = std::aligned_alloc(kHuge, rounded);
   if (!block) return nullptr;
   (void)madvise(block, rounded, MADV_HUGEPAGE);  // small pages do, too
+  (void)madvise(block, rounded, MADV_DONTFORK);  // a child would take pages that the GPU reads
   for (std::size_t i = 0; i < bytes; i += kPage) static_cast<volatile std::byte*>(block)[i] = {};
   return block;
 }
