@@ -1,8 +1,8 @@
-# hypotrack_plugin_kinds(OUT): the names in the table of kinds in hypotrack/plugin.hpp. This file lies
+# hypotrack_plugin_kinds(OUT): the names in the table of kinds in hypotrack/plugin/plugin.hpp. This file lies
 # in the source tree, in PREFIX/lib/cmake/hypotrack or in PREFIX/lib/ARCHITECTURE/cmake/hypotrack.
 function(hypotrack_plugin_kinds out)
   set(here ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
-  find_file(header hypotrack/plugin.hpp NO_CACHE NO_DEFAULT_PATH REQUIRED
+  find_file(header hypotrack/plugin/plugin.hpp NO_CACHE NO_DEFAULT_PATH REQUIRED
     PATHS ${here}/../core/include ${here}/../../../include ${here}/../../../../include)
   file(READ ${header} text)
   string(REGEX MATCHALL "\n  KIND\\([a-z]+," kinds "${text}")
@@ -33,7 +33,7 @@ macro(hypotrack_add_plugin kind name)
 endmacro()
 
 # hypotrack_compile_alone(SOURCES...): keeps sources that include themselves once per instruction set
-# (hypotrack/foreach_target-inl.hpp) out of unity builds and without a precompiled header: GCC takes
+# (hypotrack/plugin/foreach_target-inl.hpp) out of unity builds and without a precompiled header: GCC takes
 # options such as -ffp-contract from there, where a pragma selects an instruction set.
 function(hypotrack_compile_alone)
   foreach(source IN LISTS ARGN)

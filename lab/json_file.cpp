@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/file_kind.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

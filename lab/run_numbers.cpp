@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "output/metrics/metrics.hpp"
 
 namespace hypotrack::internal {

@@ -6,7 +6,7 @@ build_dir=${1:-$root/build/release}
 out=${2:-$root/docs/reference/plugins}
 hypotrack=$build_dir/bin/hypotrack
 unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
-kinds=$(sed -n 's/^  KIND(\([a-z]*\), .*/\1/p' "$root/core/include/hypotrack/plugin.hpp")
+kinds=$(sed -n 's/^  KIND(\([a-z]*\), .*/\1/p' "$root/core/include/hypotrack/plugin/plugin.hpp")
 list=$("$hypotrack" plugins list) # before anything is removed
 rm -rf "$out"
 mkdir -p "$out"

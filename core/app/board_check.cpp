@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "calibrate/verdict.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::app {
 namespace {

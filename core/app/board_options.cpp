@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::app {
 namespace {

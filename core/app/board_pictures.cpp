@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "calibrate/wrong_board.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "live_pairs/status_line.hpp"
 #include "tell.hpp"
 

@@ -10,8 +10,8 @@
 #include "board_check.hpp"
 #include "board_pictures.hpp"
 #include "calibrate/check_reach.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

@@ -2,7 +2,7 @@
 
 #include "board_options.hpp"
 #include "calibrate/picture_pairs.hpp"
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 
 namespace hypotrack::app {
 

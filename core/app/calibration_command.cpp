@@ -10,7 +10,7 @@
 #include "calibration_output.hpp"
 #include "camera_options.hpp"
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

@@ -9,7 +9,7 @@
 
 #include "base/text_file.hpp"
 #include "camera/field_of_view.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "output/recording_writer.hpp"
 
 namespace hypotrack::app {

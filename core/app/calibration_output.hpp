@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 
 namespace hypotrack::app {
 

@@ -2,7 +2,7 @@
 
 #include "camera_source.hpp"
 #include "command_line.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::app {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "config/yaml.hpp"
-#include "hypotrack/stereo_layout.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
 
 namespace hypotrack::app {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 #include "notes.hpp"
 #include "output/run_output.hpp"
 #include "session/opened_scene.hpp"

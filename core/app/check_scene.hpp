@@ -8,8 +8,8 @@
 #include <string>
 
 #include "base/kept_results.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::app {
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::app {
 namespace {

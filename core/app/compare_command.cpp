@@ -14,7 +14,7 @@
 
 #include "base/machine.hpp"
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
 #include "lab/study/check_cells.hpp"
 #include "lab/study/execute.hpp"

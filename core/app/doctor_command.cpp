@@ -16,8 +16,8 @@
 #include "doctor/plugin_checks.hpp"
 #include "doctor/probe.hpp"
 #include "doctor/table.hpp"
-#include "hypotrack/data_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "lab_commands.hpp"
 #include "scene/simd_kernels.hpp"
 

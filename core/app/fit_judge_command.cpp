@@ -9,7 +9,7 @@
 
 #include "base/text_file.hpp"
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
 #include "lab/judge/pose_sequences.hpp"
 #include "plugin/plugin_call.hpp"

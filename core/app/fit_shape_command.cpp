@@ -10,7 +10,7 @@
 
 #include "base/text_file.hpp"
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "progress.hpp"

@@ -11,8 +11,8 @@
 
 #include "commands.hpp"
 #include "doctor/check.hpp"
-#include "hypotrack/data_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::app {
 namespace {

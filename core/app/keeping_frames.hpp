@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "output/recording_writer.hpp"
 #include "tell.hpp"
 

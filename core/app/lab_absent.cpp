@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab_commands.hpp"
 
 namespace hypotrack::app {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 #include "interrupt.hpp"
 #include "lab/landscape/landscape_files.hpp"
 #include "lab/landscape/landscape_frame.hpp"

@@ -9,8 +9,8 @@
 
 #include "base/standard_streams.hpp"
 #include "commands.hpp"
-#include "hypotrack/build_tag.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/build_tag.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab_commands.hpp"
 #include "messages.hpp"
 #include "plugin/crash_report.hpp"

@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "base/system_problem.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -10,8 +10,8 @@
 #include "base/text_file.hpp"
 #include "commands.hpp"
 #include "config/former_keys.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::app {
 namespace {

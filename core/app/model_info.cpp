@@ -7,8 +7,8 @@
 
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::app {
 

@@ -9,7 +9,7 @@
 #include "base/installation.hpp"
 #include "base/text_file.hpp"
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "new_plugin/example_recording.hpp"
 #include "new_plugin/guide.hpp"
 #include "new_plugin/plugin_files.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hypotrack/frame.hpp"
-#include "hypotrack/source.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/source.hpp"
 #include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::app {

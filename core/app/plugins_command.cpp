@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "model_info.hpp"
 #include "plugin/capabilities.hpp"
 #include "plugin/inspect.hpp"

@@ -8,7 +8,7 @@
 #include "base/statistics.hpp"
 #include "base/text_file.hpp"
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/report/reliability_plot.hpp"
 #include "output/reliability_tables.hpp"
 

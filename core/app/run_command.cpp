@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
 #include "progress.hpp"

@@ -14,8 +14,8 @@
 
 #include "base/machine.hpp"
 #include "cost/cuda/device.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "interrupt.hpp"
 #include "messages.hpp"
 #include "progress.hpp"

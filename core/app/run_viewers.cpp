@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab_commands.hpp"
 #include "tell.hpp"
 #include "viewing/preview.hpp"

@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/solution.hpp"
 
 namespace hypotrack::app {
 namespace {

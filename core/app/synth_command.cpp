@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
 #include "keeping_frames.hpp"
 #include "output/recording_writer.hpp"

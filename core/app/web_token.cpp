@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/descriptor.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::app {
 namespace {

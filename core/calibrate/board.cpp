@@ -15,7 +15,7 @@
 #include "calibrate/charuco.hpp"
 #include "calibrate/chessboard.hpp"
 #include "calibrate/corner_noise.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

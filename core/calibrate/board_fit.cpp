@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "calibrate/corner_noise.hpp"
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

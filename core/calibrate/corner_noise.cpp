@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

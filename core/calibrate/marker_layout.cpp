@@ -5,7 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/back_project.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

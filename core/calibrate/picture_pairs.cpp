@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/image_file.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/video_timeline.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/image_file.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/timeline.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/media.hpp"
-#include "hypotrack/stereo_layout.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
 
 namespace hypotrack::calibrate {
 

@@ -4,7 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <utility>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::calibrate {
 

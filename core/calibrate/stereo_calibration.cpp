@@ -10,8 +10,8 @@
 #include "calibrate/corner_noise.hpp"
 #include "calibrate/faults.hpp"
 #include "calibrate/solve_stereo.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

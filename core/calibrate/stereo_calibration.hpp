@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "calibrate/board_pair.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::calibrate {
 

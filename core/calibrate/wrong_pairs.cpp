@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "calibrate/faults.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -1,8 +1,7 @@
 #include "clicking/click_picture.hpp"
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/overlay.hpp"
-#include "hypotrack/picture.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/overlay.hpp"
 #include "picture/pen.hpp"
 
 namespace hypotrack::clicking {

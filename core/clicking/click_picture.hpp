@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "clicking/clicker.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/renderer.hpp"
 
 namespace hypotrack::clicking {
 

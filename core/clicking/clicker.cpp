@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "camera/epipolar_line.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::clicking {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/clicks.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/clicks.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::clicking {
 

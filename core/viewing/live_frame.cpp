@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "hypotrack/picture.hpp"
+#include "hypotrack/api/overlay.hpp"
 
 namespace hypotrack {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/solution.hpp"
 
 namespace hypotrack {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/text_file.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/pose.hpp"
 #include "viewing/view_drawing.hpp"
 
 namespace hypotrack {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/frame.hpp"
-#include "hypotrack/output.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "run/run_scene.hpp"
 #include "viewing/frame_rate.hpp"
 #include "viewing/recorder.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "viewing/preview_keys.hpp"
 #include "viewing/preview_picture.hpp"
 #include "viewing/view_drawing.hpp"

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "config/yaml.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/pose.hpp"
 
 namespace hypotrack {
 namespace {

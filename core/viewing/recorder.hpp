@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/open_folder.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/solution.hpp"
 #include "output/recording_writer.hpp"
 #include "session/opened_scene.hpp"
 

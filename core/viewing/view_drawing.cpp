@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/overlay.hpp"
+#include "hypotrack/api/overlay.hpp"
 
 namespace hypotrack {
 

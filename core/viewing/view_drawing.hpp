@@ -3,9 +3,9 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "viewing/live_frame.hpp"
 
 namespace hypotrack {

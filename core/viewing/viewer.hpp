@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "viewing/live_frame.hpp"
 
 namespace hypotrack {

@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/installation.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

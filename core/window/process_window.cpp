@@ -13,7 +13,7 @@
 
 #include "base/descriptor.hpp"
 #include "base/subprocess.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/folders.hpp"
 #include "window/window_messages.hpp"
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <hypotrack/plugin.hpp>
+#include <hypotrack/plugin/plugin.hpp>
 #include <map>
 #include <sstream>
 

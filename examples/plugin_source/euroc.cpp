@@ -7,8 +7,8 @@
 #include <charconv>
 #include <cstdint>
 #include <fstream>
-#include <hypotrack/image_file.hpp>
-#include <hypotrack/plugin.hpp>
+#include <hypotrack/api/image_file.hpp>
+#include <hypotrack/plugin/plugin.hpp>
 #include <map>
 
 namespace {

@@ -3,8 +3,8 @@
 //   track_frames SCENE.yaml CALIBRATION.yaml LEFT.png RIGHT.png [LEFT.png RIGHT.png ...]
 #include <cstdio>
 #include <exception>
-#include <hypotrack/calibration.hpp>
-#include <hypotrack/session.hpp>
+#include <hypotrack/api/calibration.hpp>
+#include <hypotrack/api/session.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 

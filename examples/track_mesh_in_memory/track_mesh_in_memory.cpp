@@ -1,9 +1,9 @@
 // Tracks a mesh that is in memory through pictures that the program makes, without any file.
 #include <cstdio>
 #include <exception>
-#include <hypotrack/config_value.hpp>
-#include <hypotrack/renderer.hpp>
-#include <hypotrack/session.hpp>
+#include <hypotrack/api/config_value.hpp>
+#include <hypotrack/api/renderer.hpp>
+#include <hypotrack/api/session.hpp>
 
 using Value = hypotrack::ConfigValue;
 

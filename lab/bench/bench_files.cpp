@@ -5,7 +5,7 @@
 #include "base/csv.hpp"
 #include "base/machine.hpp"
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/bench/bench_numbers.hpp"
 #include "lab/bench/bench_table.hpp"
 #include "lab/json_file.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_file.hpp"
 #include "session/scene_file.hpp"

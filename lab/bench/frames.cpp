@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack::bench::internal {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
 
 namespace hypotrack::bench {

@@ -8,8 +8,8 @@
 
 #include "base/exported.hpp"
 #include "base/profile.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
 #include "lab/bench/schedule.hpp"
 #include "output/metrics/metrics.hpp"

@@ -9,8 +9,8 @@
 #include <random>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "lab/judge/pose_recoveries.hpp"
 #include "track/color/photometric.hpp"
 #include "track/displace.hpp"

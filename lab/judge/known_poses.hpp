@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/judge.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/judge.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

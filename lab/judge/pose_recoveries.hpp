@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "session/opened_scene.hpp"
 #include "track/recover/recovery.hpp"
 

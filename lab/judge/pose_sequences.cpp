@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <random>
 
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 
 namespace hypotrack::internal {
 namespace {

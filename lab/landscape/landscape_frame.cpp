@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/stop_scope.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "session/opened_scene.hpp"
 #include "track/frame_search.hpp"
 #include "track/loop/scene_tracker.hpp"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/landscape/landscape.hpp"
 
 namespace hypotrack {

@@ -7,7 +7,7 @@
 #include <array>
 #include <cctype>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

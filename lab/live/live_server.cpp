@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "base/system_problem.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/live/http_server.hpp"
 #include "lab/live/page_files.hpp"
 #include "lab/live/request_queue.hpp"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/solution_json.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "lab/report/replay_shape.hpp"
 
 namespace hypotrack::internal {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "lab/json_file.hpp"
 #include "viewing/latest.hpp"
 #include "viewing/live_frame.hpp"

@@ -4,9 +4,8 @@
 
 #include <filesystem>
 
-#include "hypotrack/data_file.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "viewing/yield_to_others.hpp"
 
 namespace hypotrack::internal {

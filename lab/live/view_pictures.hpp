@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "viewing/latest.hpp"
 #include "viewing/live_frame.hpp"
 #include "viewing/view_drawing.hpp"

@@ -16,7 +16,7 @@
 
 #include "cost/cost.hpp"
 #include "cost/hypothesis_drawer.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

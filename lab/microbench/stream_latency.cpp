@@ -16,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/tile_resampler.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "test_models.hpp"
 #include "track/color/photometric.hpp"
 

@@ -11,7 +11,7 @@
 #include "base/csv.hpp"
 #include "base/statistics.hpp"
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/cells.hpp"
 #include "lab/report/number_json.hpp"

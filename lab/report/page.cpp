@@ -4,9 +4,9 @@
 
 #include <array>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack::internal {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/statistics.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
 #include "lab/report/number_json.hpp"

@@ -10,8 +10,8 @@
 #include <system_error>
 
 #include "base/subprocess.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack::internal {

@@ -1,6 +1,6 @@
 #include "lab/report/plot_parts.hpp"
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack::internal {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/csv.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/run_numbers.hpp"
 #include "lab/study/hash.hpp"

@@ -5,9 +5,9 @@
 #include <set>
 #include <tuple>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "lab/report/read_run.hpp"
 #include "lab/report/study_data.hpp"
 #include "output/run_directory.hpp"

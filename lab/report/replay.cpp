@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 #include "lab/report/replay_shape.hpp"

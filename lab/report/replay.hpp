@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 

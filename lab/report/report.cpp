@@ -7,7 +7,7 @@
 
 #include "base/file_kind.hpp"
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/change_data.hpp"
 #include "lab/report/page.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

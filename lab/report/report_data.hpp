@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {

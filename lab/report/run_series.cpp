@@ -6,7 +6,7 @@
 #include <map>
 
 #include "base/csv.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 #include "output/metrics/frame_outcome.hpp"

@@ -7,8 +7,8 @@
 #include <map>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 

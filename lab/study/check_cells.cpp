@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "cost/cuda/backend_text.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "run/crew/crew.hpp"
 
 namespace hypotrack::study::internal {

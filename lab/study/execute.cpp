@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/study/recordings.hpp"
 #include "lab/study/run_order.hpp"
 #include "run/crew/crew.hpp"

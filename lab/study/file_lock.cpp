@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/numbers.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "lab/study/hash.hpp"
 
 namespace hypotrack::study::internal {

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/noise.hpp"
 #include "run/crew/crew.hpp"

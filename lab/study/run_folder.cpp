@@ -8,7 +8,7 @@
 
 #include "base/numbers.hpp"
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack::study::internal {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/text_file.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/result_folder.hpp"
 
 namespace hypotrack::study::internal {

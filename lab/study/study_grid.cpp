@@ -14,7 +14,7 @@
 #include "config/overrides.hpp"
 #include "config/read_value.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/text.hpp"
 #include "lab/run_numbers.hpp"
 #include "lab/study/study_text.hpp"
 

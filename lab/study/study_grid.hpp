@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 #include "lab/study/study_file.hpp"
 
 namespace hypotrack::study {

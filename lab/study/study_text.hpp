@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 
 namespace hypotrack::study {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "arrays.hpp"
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::python {
 namespace {

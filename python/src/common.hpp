@@ -9,8 +9,8 @@
 #include <thread>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/stop.hpp"
 
 // What all parts of the module share: the rules of the GIL, and of exceptions.
 //

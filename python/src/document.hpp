@@ -1,7 +1,7 @@
 #pragma once
 
 #include "common.hpp"
-#include "hypotrack/config_value.hpp"
+#include "hypotrack/api/config_value.hpp"
 
 namespace hypotrack::python {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "arrays.hpp"
-#include "hypotrack/frame_cost.hpp"
+#include "hypotrack/api/frame_cost.hpp"
 
 namespace hypotrack::python {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
 
 namespace hypotrack::python {
 

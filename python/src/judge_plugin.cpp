@@ -1,6 +1,6 @@
 #include <pybind11/stl.h>
 
-#include "hypotrack/judge.hpp"
+#include "hypotrack/plugin/judge.hpp"
 #include "plugins.hpp"
 
 namespace hypotrack::python {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "arrays.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "plugins.hpp"
 
 namespace hypotrack::python {

@@ -1,7 +1,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "hypotrack/output.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "plugins.hpp"
 #include "solution.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 
 namespace hypotrack::python {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::python {
 

@@ -1,4 +1,4 @@
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

@@ -1,4 +1,4 @@
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -7,7 +7,7 @@
 
 #include "arrays.hpp"
 #include "document.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/pose.hpp"
 
 namespace hypotrack::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "hypotrack/linearization.hpp"
+#include "hypotrack/plugin/linearization.hpp"
 
 namespace hypotrack::python {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "arrays.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack::python {
 

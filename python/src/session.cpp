@@ -1,4 +1,4 @@
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

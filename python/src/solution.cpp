@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "arrays.hpp"
-#include "hypotrack/solution_json.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::python {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/scene.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/solution.hpp"
 
 namespace hypotrack::python {
 

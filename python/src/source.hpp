@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "common.hpp"
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 
 namespace hypotrack::python {
 

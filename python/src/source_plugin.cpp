@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "frames.hpp"
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 #include "plugins.hpp"
 
 namespace hypotrack::python {

@@ -1,7 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
-#include "hypotrack/start.hpp"
+#include "hypotrack/plugin/start.hpp"
 #include "plugins.hpp"
 
 namespace hypotrack::python {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "hypotrack/tracker.hpp"
+#include "hypotrack/api/tracker.hpp"
 #include "solution.hpp"
 
 namespace hypotrack::python {

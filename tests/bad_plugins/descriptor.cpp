@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

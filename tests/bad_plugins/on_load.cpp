@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

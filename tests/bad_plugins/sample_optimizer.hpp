@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::test {
 

@@ -1,6 +1,6 @@
 #include "broken_device.hpp"
 
-#include "hypotrack/cuda/state_objective.cuh"
+#include "hypotrack/gpu/state_objective.cuh"
 
 namespace hypotrack {
 namespace {

@@ -2,9 +2,9 @@
 #include <array>
 #include <atomic>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,5 +1,5 @@
 // An objective with a parameter that scenes read themselves, and with one without help.
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/random.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/random.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 namespace {

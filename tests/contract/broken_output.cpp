@@ -4,8 +4,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

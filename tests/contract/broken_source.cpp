@@ -5,7 +5,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

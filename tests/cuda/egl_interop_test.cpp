@@ -11,7 +11,7 @@
 #include "cost/cost.hpp"
 #include "cost/hypothesis_renderer.hpp"
 #include "device.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "observations.hpp"
 #include "probes.hpp"
 #include "test_models.hpp"

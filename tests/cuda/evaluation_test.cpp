@@ -5,7 +5,7 @@
 #include "device.hpp"
 #include "every_target.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "observations.hpp"
 #include "probes.hpp"
 #include "test_models.hpp"

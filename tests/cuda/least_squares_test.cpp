@@ -7,7 +7,7 @@
 
 #include "device.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::test {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "device.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "image_work.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"

@@ -1,6 +1,6 @@
 #include "probe_terms.hpp"
 
-#include "hypotrack/cuda/pixel_objective.cuh"
+#include "hypotrack/gpu/pixel_objective.cuh"
 
 namespace hypotrack::test {
 namespace {

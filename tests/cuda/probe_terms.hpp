@@ -4,8 +4,8 @@
 #include <cstring>
 #include <memory>
 
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::test {
 

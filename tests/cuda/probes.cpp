@@ -1,7 +1,7 @@
 #include "probes.hpp"
 
-#include "hypotrack/stereo_pixels.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "probe_terms.hpp"
 
 namespace hypotrack::test {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::test {
 

@@ -10,7 +10,7 @@
 
 #include "device.hpp"
 #include "device_twin.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "pso.hpp"
 #include "quadratic_cost.hpp"
 #include "search_problems.hpp"

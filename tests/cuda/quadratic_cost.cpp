@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
-#include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/device_cost.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 #include "quadratic_kernel.hpp"
 
 namespace hypotrack::test {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack::test {
 

@@ -1,6 +1,6 @@
 #include "quadratic_kernel.hpp"
 
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::test {
 namespace {

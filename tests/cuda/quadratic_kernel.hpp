@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::test {
 

@@ -1,7 +1,7 @@
 #include "reciprocal_kernel.hpp"
 
-#include "hypotrack/cuda/block.cuh"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/block.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <iosfwd>
 
 #include "cost/cost.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "session/opened_scene.hpp"
 #include "tile/tiles.hpp"
 

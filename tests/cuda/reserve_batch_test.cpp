@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::cuda {
 namespace {

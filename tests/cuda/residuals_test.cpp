@@ -7,7 +7,7 @@
 #include "device.hpp"
 #include "device_scores.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "interpenetration.hpp"
 #include "linearized_terms.hpp"
 #include "observations.hpp"

@@ -16,7 +16,7 @@
 #include "device_scores.hpp"
 #include "expect_error.hpp"
 #include "foreground.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "made_up_frame.hpp"
 #include "observations.hpp"
 #include "on_device.hpp"

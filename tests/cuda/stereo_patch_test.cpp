@@ -11,7 +11,7 @@
 #include "device.hpp"
 #include "device_scores.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "made_up_frame.hpp"
 #include "observations.hpp"
 #include "on_device.hpp"

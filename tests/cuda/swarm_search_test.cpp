@@ -4,7 +4,7 @@
 
 #include "device.hpp"
 #include "device_scores.hpp"
-#include "hypotrack/cuda/device_cost.hpp"
+#include "hypotrack/gpu/device_cost.hpp"
 #include "observations.hpp"
 #include "probes.hpp"
 #include "pso_cuda.hpp"

@@ -7,8 +7,8 @@
 #include "../core/camera/tile_cases.hpp"
 #include "device.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack {
 namespace {

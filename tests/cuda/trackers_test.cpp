@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "device.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 

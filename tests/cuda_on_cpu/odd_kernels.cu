@@ -1,7 +1,7 @@
 #include "odd_kernels.hpp"
 
-#include "hypotrack/cuda/bands.cuh"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/bands.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::test {
 namespace {

@@ -1,6 +1,6 @@
 // Calibration files of every format, as one file, as one of two and as one with extrinsics.
 
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 
 #include "target.hpp"
 

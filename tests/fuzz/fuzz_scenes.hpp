@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "palm.hpp"
 #include "rig.hpp"
 #include "stick_hand.hpp"

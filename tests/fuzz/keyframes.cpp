@@ -1,7 +1,7 @@
 // Motions by keyframes, with their gestures.
 
 #include "fuzz_scenes.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 #include "script.hpp"
 
 namespace hypotrack::fuzz {

@@ -1,7 +1,7 @@
 // Tables of landmarks. Written and read again they are the same.
 
 #include "fuzz_scenes.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack::fuzz {
 

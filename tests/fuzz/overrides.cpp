@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 #include "target.hpp"
 
 namespace hypotrack::fuzz {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 #include "target.hpp"
 
 namespace hypotrack::fuzz {

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "sample_params.hpp"
 
 namespace hypotrack::test {

@@ -1,8 +1,8 @@
 // Starts: a pose, or clicks.
 
 #include "fuzz_scenes.hpp"
-#include "hypotrack/clicks.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/clicks.hpp"
+#include "hypotrack/api/pose.hpp"
 
 namespace hypotrack::fuzz {
 

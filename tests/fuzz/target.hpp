@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::fuzz {
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <utility>
 
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::test {
 namespace {

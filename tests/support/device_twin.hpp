@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/gpu/device_cost.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack::test {
 

@@ -1,6 +1,6 @@
 // Stands in for the twin in a build without a CUDA toolkit.
 #include "device_twin.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::test {
 

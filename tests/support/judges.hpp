@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::test {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::test {
 

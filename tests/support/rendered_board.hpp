@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::test {
 

@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "test_models.hpp"
 #include "tile/tiles.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 
 namespace hypotrack::test {
 

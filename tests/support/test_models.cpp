@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::test {
 namespace {

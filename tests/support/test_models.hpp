@@ -4,8 +4,8 @@
 #include <random>
 #include <span>
 
-#include "hypotrack/model.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::test {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::test {
 

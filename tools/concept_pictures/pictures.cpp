@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "distinctiveness.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "stereo_color.hpp"
 
 namespace {

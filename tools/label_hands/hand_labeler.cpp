@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "hand_pairs.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::hands {
 namespace {

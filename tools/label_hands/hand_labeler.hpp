@@ -5,10 +5,10 @@
 
 #include "hand_detector.hpp"
 #include "hand_model.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack::hands {
 

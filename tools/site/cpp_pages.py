@@ -7,6 +7,7 @@ import doxygen
 from python_pages import link_pages
 
 HIDDEN = re.compile(r"::(detail|internal)(::|$)")
+SHELVES = ["api", "plugin", "gpu"]
 FUNCTIONS = ("function", "variable", "typedef", "enum", "define")
 
 
@@ -29,7 +30,7 @@ def is_public(member):
 
 class Header:
     def __init__(self, name):
-        self.name = name  # hypotrack/tracker.hpp
+        self.name = name  # hypotrack/api/tracker.hpp
         self.classes, self.members = [], []
 
     @property
@@ -220,13 +221,13 @@ def short(name):
 def pages(headers, scratch):
     """Yields (name, text) of a page for each header and of their index."""
     api = Api(doxygen.read_xml(headers, scratch))
-    shown = sorted((h for h in api.headers.values() if h.classes or h.members), key=lambda h: ("/cuda/" in h.name, h.name))
+    shown = sorted((h for h in api.headers.values() if h.classes or h.members), key=lambda h: (SHELVES.index(h.name.split("/")[1]), h.name))
     rows = []
     for header in shown:
         names = [name_of(c).removeprefix("hypotrack::") for c in header.classes if "::" not in name_of(c).removeprefix("hypotrack::")]
         names += dict.fromkeys(m.findtext("name") for m in header.members)
         rows.append(f"| [{short(header.name)}]({header.page}) | {', '.join(f'`{n}`' for n in names[:8])} |")
         yield header.page, header_page(api, header)
-    intro = ("# C++ headers\n\nPrograms and plugins include these headers. "
+    intro = ("# C++ headers\n\nPrograms that track include `api/`, plugins also `plugin/`, their parts for GPUs also `gpu/`. "
              "[Track from a program of your own](../../howto/embed.md) and [write a plugin](../../contributing.md) show how.\n\n")
     yield "index.md", intro + "| header | declares |\n|---|---|\n" + "\n".join(rows) + "\n"

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/inspect.hpp"
 

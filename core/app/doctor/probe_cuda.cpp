@@ -8,7 +8,7 @@
 
 #include "cost/cuda/device.hpp"
 #include "doctor/probe.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::doctor {
 namespace {

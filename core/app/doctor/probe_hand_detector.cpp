@@ -2,7 +2,7 @@
 
 #include "doctor/probe.hpp"
 #include "hand_detector.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::doctor {
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "doctor/probe.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/renderer.hpp"
 
 namespace hypotrack::doctor {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "doctor/probe.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::doctor {
 namespace {

@@ -5,7 +5,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "start_drawing.hpp"
 
 namespace hypotrack::app {

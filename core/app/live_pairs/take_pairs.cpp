@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "live_pairs/enter_key.hpp"
 #include "live_pairs/status_line.hpp"
 #include "tell.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "calibrate/pair_collector.hpp"
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 #include "interrupt.hpp"
 #include "live_pairs/pair_folder.hpp"
 

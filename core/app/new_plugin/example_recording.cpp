@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/text_file.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack::app {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::app {
 

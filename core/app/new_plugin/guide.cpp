@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "base/installation.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::app {
 

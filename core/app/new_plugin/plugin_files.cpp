@@ -7,7 +7,7 @@
 #include <cctype>
 #include <regex>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::app {
 namespace {

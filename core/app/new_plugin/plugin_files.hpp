@@ -8,7 +8,7 @@ namespace hypotrack::app {
 
 /// Which plugin is to be written.
 struct PluginRequest {
-  std::string kind;   ///< of the table in hypotrack/plugin.hpp
+  std::string kind;   ///< of the table in hypotrack/plugin/plugin.hpp
   std::string name;   ///< in scenes; its source file and class are named after it
   bool cuda = false;  ///< with a part for GPUs
 };

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "calibrate/picture_pairs.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::app {
 namespace {

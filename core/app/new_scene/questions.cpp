@@ -5,8 +5,8 @@
 
 #include <iostream>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

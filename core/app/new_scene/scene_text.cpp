@@ -5,7 +5,7 @@
 
 #include "calibrate/picture_pairs.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "new_scene/scene_request.hpp"
 
 namespace hypotrack::app {

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "base/file_kind.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,5 +1,3 @@
-#include "hypotrack/disk.hpp"
-
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
@@ -10,6 +8,7 @@
 #include <cstring>
 
 #include "base/system_problem.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack {
 

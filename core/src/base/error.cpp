@@ -1,6 +1,6 @@
 // Out-of-line destructors anchor type information in libhypotrack.so, so that plugins' exceptions
 // are caught.
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

@@ -5,8 +5,8 @@
 
 #include <cstdlib>
 
-#include "hypotrack/data_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::detail::internal {
 

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "base/exported.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

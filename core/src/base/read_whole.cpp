@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/file_bytes.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 
 #include "base/stop_scope.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/exported.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

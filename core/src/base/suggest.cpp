@@ -1,11 +1,11 @@
-#include "hypotrack/suggest.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
 #include <vector>
+
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack {
 namespace {

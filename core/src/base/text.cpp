@@ -1,4 +1,4 @@
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/text.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/exported.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,9 +1,9 @@
-#include "hypotrack/back_project.hpp"
-
 #include <cmath>
 #include <limits>
 #include <opencv2/calib3d.hpp>
 #include <vector>
+
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack {
 namespace {

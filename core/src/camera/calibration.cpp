@@ -1,4 +1,4 @@
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +12,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 #include "camera/orientation.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

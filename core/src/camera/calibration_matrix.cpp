@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "camera/calibration_text.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

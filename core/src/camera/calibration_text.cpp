@@ -9,8 +9,8 @@
 
 #include "base/file_kind.hpp"
 #include "camera/formats/zed_sections.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +14,7 @@
 
 #include "camera/distort.hpp"
 #include "camera/distortion.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

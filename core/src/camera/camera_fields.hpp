@@ -11,9 +11,9 @@
 
 #include "base/exported.hpp"
 #include "camera/calibration_text.hpp"
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 
 // Parts of cameras that several formats of calibration files share.
 

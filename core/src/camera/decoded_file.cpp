@@ -9,7 +9,7 @@
 #include "camera/netpbm.hpp"
 #include "camera/orientation.hpp"
 #include "camera/picture_header.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/exported.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// Lens distortion formulas for CPU and CUDA, without Eigen and OpenCV.
 namespace hypotrack {

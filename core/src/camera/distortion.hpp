@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

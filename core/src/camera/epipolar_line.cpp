@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 
 #include "base/exported.hpp"
 #include "camera/distort.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// Maps tile pixels to a camera's image: plain data and the one function that CPU and CUDA share,
 /// without Eigen and OpenCV.

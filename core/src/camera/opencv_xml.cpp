@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "camera/calibration_text.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/exported.hpp"
 #include "base/file_bytes.hpp"
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,8 +1,8 @@
-#include "hypotrack/pair_by_time.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+
+#include "hypotrack/api/timeline.hpp"
 
 namespace hypotrack {
 namespace {

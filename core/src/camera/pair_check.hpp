@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -11,7 +11,7 @@
 
 #include "camera/orientation.hpp"
 #include "camera/picture_container.hpp"
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 
 namespace hypotrack {
 namespace {

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "camera/orientation.hpp"
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 
 namespace hypotrack {
 namespace {

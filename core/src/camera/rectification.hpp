@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,8 +1,8 @@
-#include "hypotrack/stereo_layout.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
 
 #include <fmt/format.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "camera/epipolar_line.hpp"
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::internal {
 

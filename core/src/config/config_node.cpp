@@ -6,8 +6,8 @@
 #include "config/includes.hpp"
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

@@ -1,4 +1,4 @@
-#include "hypotrack/config_value.hpp"
+#include "hypotrack/api/config_value.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
 #include "config/yaml_text.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

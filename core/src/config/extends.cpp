@@ -7,7 +7,7 @@
 
 #include "config/file_name.hpp"
 #include "config/includes.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

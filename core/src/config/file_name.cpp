@@ -7,9 +7,9 @@
 #include <system_error>
 #include <vector>
 
-#include "hypotrack/data_file.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -14,8 +14,8 @@
 #include "config/former_keys.hpp"
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

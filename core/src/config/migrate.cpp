@@ -10,7 +10,7 @@
 
 #include "config/former_keys.hpp"
 #include "config/text_lines.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "config/includes.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

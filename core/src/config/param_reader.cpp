@@ -7,8 +7,8 @@
 
 #include "base/numbers.hpp"
 #include "config/read_value.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

@@ -9,7 +9,7 @@
 #include "base/numbers.hpp"
 #include "config/read_value.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 namespace {

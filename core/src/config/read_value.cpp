@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "base/numbers.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::detail::internal {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "config/yaml.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

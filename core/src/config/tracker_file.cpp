@@ -12,7 +12,7 @@
 #include "config/includes.hpp"
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "config/yaml_text.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "config/yaml.hpp"
 #include "config/yaml_text.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "base/descriptor.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/profile.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/stop.hpp"
 
 namespace hypotrack::internal {
 namespace {

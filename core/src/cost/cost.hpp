@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack {

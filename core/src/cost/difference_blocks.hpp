@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,7 +6,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

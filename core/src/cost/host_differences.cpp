@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "cost/difference_blocks.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 namespace {

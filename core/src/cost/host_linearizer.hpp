@@ -6,9 +6,9 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,8 +6,8 @@
 
 #include "base/exported.hpp"
 #include "cost/raster_kernels.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "scene/scene_plan.hpp"
 #include "scene/scene_poser.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

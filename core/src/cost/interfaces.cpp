@@ -1,10 +1,10 @@
 // Out-of-line destructors anchor vtables in libhypotrack.so, so that dynamic casts work across
 // plugin libraries.
-#include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/device_cost.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 

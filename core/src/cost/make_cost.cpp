@@ -9,7 +9,7 @@
 #include "cost/host_linearizer.hpp"
 #include "cost/split_cost.hpp"
 #include "cost/term_residuals.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,4 +1,4 @@
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "cost/term_times.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "plugin/plugin_call.hpp"
 
 namespace hypotrack {

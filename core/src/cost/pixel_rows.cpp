@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 #include <iterator>
 
 #include "scene/block_vectors-inl.hpp"

@@ -1,7 +1,7 @@
 // Compiled once per instruction set: the include below includes this file again.
 
 #define HWY_TARGET_INCLUDE "cost/project_kernel.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "cost/raster_kernels.hpp"
 #include "scene/block_vectors-inl.hpp"

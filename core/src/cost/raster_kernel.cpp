@@ -7,7 +7,7 @@
 // by one, with one pixel per lane.
 
 #define HWY_TARGET_INCLUDE "cost/raster_kernel.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "cost/raster_kernels.hpp"
 #include "scene/block_vectors-inl.hpp"

@@ -10,7 +10,7 @@
 // instruction set and selected at run time. Arrays named `aligned` start at multiples of 64 bytes.
 //
 // With fused multiply-add, vertices, coverage and inverse depths are bit-identical on CPU and GPU
-// (hypotrack/cuda/{vertices,cull,fill}.cuh). Both sides use the same operations with the same
+// (hypotrack/gpu/{vertices,cull,fill}.cuh). Both sides use the same operations with the same
 // fusing. Whoever changes one side must change the other.
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

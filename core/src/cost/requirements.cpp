@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <string>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 

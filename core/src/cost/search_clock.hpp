@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/exported.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cost/backends.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -9,7 +9,7 @@
 #include "base/machine.hpp"
 #include "base/system_problem.hpp"
 #include "gl/egl_context.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::gl::internal {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "base/numbers.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::gl::internal {
 namespace {

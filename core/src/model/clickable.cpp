@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "hypotrack/clicks.hpp"
+#include "hypotrack/api/clicks.hpp"
 
 namespace hypotrack {
 

@@ -1,8 +1,8 @@
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 #include <fmt/format.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "model/posing.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/landmark_fit.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <vector>
 
-#include "hypotrack/damping.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,6 +1,6 @@
 #include <Eigen/Geometry>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/shape.hpp"
 #include "model/posing.hpp"
 #include "plugin/plugin_call.hpp"
 

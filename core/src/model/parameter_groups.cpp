@@ -2,7 +2,7 @@
 #include <map>
 #include <numeric>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 namespace {

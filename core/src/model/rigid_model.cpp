@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 

@@ -1,10 +1,10 @@
-#include "hypotrack/shape.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,8 +1,8 @@
-#include "hypotrack/skeleton.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 #include <algorithm>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack {
 

@@ -1,5 +1,3 @@
-#include "hypotrack/texture_atlas.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 
 namespace hypotrack {
 namespace {

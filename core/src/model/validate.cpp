@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "config/yaml_text.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 namespace {

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "base/csv.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"
 #include "output/true_landmarks.hpp"

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/disk.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "hypotrack/picture.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/overlay.hpp"
 #include "output/run_directory.hpp"
 #include "output/true_landmarks.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "base/exported.hpp"
 #include "cost/term_times.hpp"
-#include "hypotrack/output.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "output/metrics/metrics.hpp"
 #include "output/metrics/status_metrics.hpp"
 #include "output/summary.hpp"

@@ -1,10 +1,9 @@
-#include "hypotrack/model_files.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/output.hpp"
 
 namespace hypotrack {
 

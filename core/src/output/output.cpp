@@ -1,4 +1,4 @@
-#include "hypotrack/output.hpp"
+#include "hypotrack/plugin/output.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include <system_error>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 

@@ -9,9 +9,9 @@
 
 #include "base/text_file.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/disk.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "output/recording_folder.hpp"
 #include "output/true_landmarks.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "output/image_writer.hpp"
 #include "output/metrics/motion_speeds.hpp"
 #include "output/recording_folder.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/csv.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"

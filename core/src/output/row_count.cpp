@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_kind.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "output/evaluation.hpp"
 #include "output/run_directory.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

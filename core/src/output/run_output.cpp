@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::internal {
 namespace {

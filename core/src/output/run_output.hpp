@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/output.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "output/metrics_output.hpp"
 #include "output/run_directory.hpp"
 #include "plugin/plugin_notes.hpp"

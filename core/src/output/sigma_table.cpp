@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 

@@ -1,8 +1,7 @@
-#include "hypotrack/solution_json.hpp"
-
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack {
 namespace {

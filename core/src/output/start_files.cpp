@@ -3,8 +3,8 @@
 #include <system_error>
 
 #include "config/yaml.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "output/recording_folder.hpp"
 
 namespace hypotrack::internal {

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack::internal {
 

@@ -1,4 +1,4 @@
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,8 +12,8 @@
 
 #include "base/csv.hpp"
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 #include "output/table_text.hpp"
 
 namespace hypotrack {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/exported.hpp"
-#include "hypotrack/output.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "output/metrics/frame_outcome.hpp"
 #include "track/search_trace.hpp"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,11 +1,11 @@
-#include "hypotrack/truth.hpp"
+#include "hypotrack/plugin/truth.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdint>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack {

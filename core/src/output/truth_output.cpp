@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
 

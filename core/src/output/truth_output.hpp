@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/output.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "output/metrics/landmark_errors.hpp"
 
 namespace hypotrack {

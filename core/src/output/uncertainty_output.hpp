@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/exported.hpp"
-#include "hypotrack/output.hpp"
-#include "hypotrack/solution.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "output/metrics/reliability.hpp"
 
 namespace hypotrack {

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "output/image_writer.hpp"
 
 namespace hypotrack::internal {

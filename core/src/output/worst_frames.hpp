@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/output.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "picture/comparison.hpp"
 
 namespace hypotrack {

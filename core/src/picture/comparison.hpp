@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/renderer.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -4,7 +4,7 @@
 
 #include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "picture/shading_mesh.hpp"
 
 namespace hypotrack {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "cost/hypothesis_drawer.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "picture/extent.hpp"
 #include "picture/surface.hpp"
 #include "scene/scene_plan.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "picture/lens.hpp"
 #include "picture/surface.hpp"
 

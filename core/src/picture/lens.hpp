@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

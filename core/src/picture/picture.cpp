@@ -1,8 +1,8 @@
-#include "hypotrack/picture.hpp"
-
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "hypotrack/api/overlay.hpp"
 
 namespace hypotrack {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

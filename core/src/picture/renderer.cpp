@@ -1,11 +1,11 @@
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 
 #include <fmt/format.h>
 
 #include <deque>
 #include <optional>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "picture/flat_drawer.hpp"
 #include "picture/lens.hpp"
 #include "picture/scene_drawer.hpp"

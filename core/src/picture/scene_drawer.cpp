@@ -11,7 +11,7 @@
 
 #include "gl/egl_context.hpp"
 #include "gl/gl_objects.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "picture/drawable.hpp"
 #include "picture/extent.hpp"
 #include "picture/flat_drawer.hpp"

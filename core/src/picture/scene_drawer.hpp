@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

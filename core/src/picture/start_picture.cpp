@@ -8,11 +8,10 @@
 #include <span>
 
 #include "camera/epipolar_line.hpp"
-#include "hypotrack/clicks.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/overlay.hpp"
-#include "hypotrack/picture.hpp"
+#include "hypotrack/api/clicks.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/overlay.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "picture/pen.hpp"
 
 namespace hypotrack::internal {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/installation.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

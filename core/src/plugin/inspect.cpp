@@ -11,8 +11,8 @@
 
 #include "base/subprocess.hpp"
 #include "base/system_problem.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 #include "plugin/capabilities.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <set>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::detail::internal {
 namespace {

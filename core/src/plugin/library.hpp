@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::detail {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/system_problem.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/stop.hpp"
 #include "plugin/folders.hpp"
 
 namespace hypotrack::detail::internal {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin_object.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 #include "plugin/running_plugin.hpp"
 
 namespace hypotrack::detail {

@@ -4,7 +4,7 @@
 
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

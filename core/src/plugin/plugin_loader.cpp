@@ -8,11 +8,11 @@
 #include <set>
 
 #include "config/read_value.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/mesh_io.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/stop.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/api/stop.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "plugin/crash_report.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"

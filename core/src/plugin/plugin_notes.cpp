@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 #include "plugin/running_plugin.hpp"
 
 namespace hypotrack {

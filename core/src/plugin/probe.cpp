@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/library.hpp"
 
 namespace hypotrack::detail::internal {

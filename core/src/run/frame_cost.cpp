@@ -1,4 +1,4 @@
-#include "hypotrack/frame_cost.hpp"
+#include "hypotrack/api/frame_cost.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cost/cuda/device.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/plugin_call.hpp"
 #include "run/frame_cost_impl.hpp"
 

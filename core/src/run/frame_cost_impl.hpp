@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/frame_cost.hpp"
+#include "hypotrack/api/frame_cost.hpp"
 #include "session/opened_scene.hpp"
 #include "track/frame_search.hpp"
 

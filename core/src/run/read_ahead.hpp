@@ -7,7 +7,7 @@
 
 #include "base/bounded_queue.hpp"
 #include "base/exported.hpp"
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

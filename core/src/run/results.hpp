@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/exported.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 #include "output/fixed_lag_output.hpp"
 #include "output/output_queue.hpp"
 #include "output/run_output.hpp"

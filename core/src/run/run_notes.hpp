@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/exported.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "run/results.hpp"
 #include "track/loop/scene_tracker.hpp"

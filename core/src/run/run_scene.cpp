@@ -12,7 +12,7 @@
 
 #include "base/stop_scope.hpp"
 #include "camera/pair_check.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "output/true_landmarks.hpp"
 #include "run/read_ahead.hpp"
 #include "run/results.hpp"

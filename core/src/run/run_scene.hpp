@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "output/summary.hpp"
 #include "session/opened_scene.hpp"
 

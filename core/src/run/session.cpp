@@ -1,10 +1,10 @@
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 
 #include <optional>
 #include <utility>
 
 #include "cost/cuda/device.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "run/frame_cost_impl.hpp"
 #include "run/run_scene.hpp"
 #include "run/tracker_impl.hpp"

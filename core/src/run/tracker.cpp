@@ -1,4 +1,4 @@
-#include "hypotrack/tracker.hpp"
+#include "hypotrack/api/tracker.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 #include "base/stop_scope.hpp"
 #include "cost/cuda/device.hpp"
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "run/tracker_impl.hpp"
 

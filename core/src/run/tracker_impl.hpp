@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "hypotrack/tracker.hpp"
+#include "hypotrack/api/tracker.hpp"
 #include "session/opened_scene.hpp"
 #include "track/loop/scene_tracker.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/model.hpp"
-#include "hypotrack/skeleton.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

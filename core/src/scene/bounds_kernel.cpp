@@ -3,7 +3,7 @@
 // machine.
 
 #define HWY_TARGET_INCLUDE "scene/bounds_kernel.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 #include <limits>
 
 #include "scene/block_vectors-inl.hpp"

@@ -4,9 +4,9 @@
 #define HWY_TARGET_INCLUDE "scene/pose_kernel.cpp"
 #include <algorithm>
 #include <cstring>
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
-#include "hypotrack/sine_cosine.hpp"
+#include "hypotrack/gpu/sine_cosine.hpp"
 
 #ifndef HYPOTRACK_POSE_KERNEL_TYPES_
 #define HYPOTRACK_POSE_KERNEL_TYPES_
@@ -37,7 +37,7 @@ HWY_INLINE float fma(float a, float b, float c) {
   return hn::GetLane(hn::MulAdd(hn::Set(one, a), hn::Set(one, b), hn::Set(one, c)));
 }
 
-// Computes sine and cosine; see hypotrack/sine_cosine.hpp.
+// Computes sine and cosine; see hypotrack/gpu/sine_cosine.hpp.
 HWY_INLINE SineCosine sine_and_cosine(float angle) {
   using namespace hypotrack::sine_cosine;
   const float biased = angle * kQuartersPerRadian + kRoundingBias;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

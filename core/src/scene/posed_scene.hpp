@@ -8,7 +8,7 @@
 
 #include "base/exported.hpp"
 #include "camera/rectification.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "scene/scene_poser.hpp"
 
 namespace hypotrack {

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/layout.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/gpu/layout.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

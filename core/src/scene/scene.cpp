@@ -1,4 +1,4 @@
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack {
 

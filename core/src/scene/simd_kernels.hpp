@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/skeleton_pose.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 // The vectorised inner loops that pose and bound a scene, behind plain data, compiled once per
 // instruction set and chosen at run time. Arrays named `aligned` begin at multiples of 64 bytes.
-// Posed vertices are the same to the last bit on the GPU (hypotrack/cuda/vertices.cuh) wherever
+// Posed vertices are the same to the last bit on the GPU (hypotrack/gpu/vertices.cuh) wherever
 // there is a fused multiply-add. A change of one side needs the same change of the other.
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -63,7 +63,7 @@ const char* simd_target();
 std::int64_t compiled_simd_targets();
 
 /// Writes the 3x4 matrix, row by row, from the bind pose to the first camera for every bone of one
-/// model. The single-precision operations equal the GPU's (hypotrack/cuda/pose.cuh), so that
+/// model. The single-precision operations equal the GPU's (hypotrack/gpu/pose.cuh), so that
 /// results are bit-identical wherever there is a fused multiply-add. `state` is the model's,
 /// normalised; `first_from_world` is 3x4, row by row. `locals` is scratch for 12 numbers per bone.
 void pose_skeleton(const SkeletonLayout& skeleton, const float* state,

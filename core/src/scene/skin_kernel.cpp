@@ -1,7 +1,7 @@
 // Compiled once for every instruction set: the include below includes this file again.
 
 #define HWY_TARGET_INCLUDE "scene/skin_kernel.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "scene/block_vectors-inl.hpp"
 #include "scene/simd_kernels.hpp"

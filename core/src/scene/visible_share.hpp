@@ -7,7 +7,7 @@
 
 #include "base/exported.hpp"
 #include "camera/rectification.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack {

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "camera/epipolar_line.hpp"
-#include "hypotrack/clicks.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/landmark_fit.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/clicks.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
 
 namespace hypotrack {
 namespace {

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <utility>
 
-#include "hypotrack/clicks.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/clicks.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,12 +1,12 @@
-#include "hypotrack/clicks.hpp"
+#include "hypotrack/api/clicks.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 namespace {

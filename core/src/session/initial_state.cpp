@@ -6,10 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/pose.hpp"
-#include "hypotrack/start.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/start.hpp"
 #include "session/opened_scene.hpp"
 #include "track/displace.hpp"
 

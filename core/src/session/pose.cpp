@@ -1,4 +1,4 @@
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/pose.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "session/rotation_by_directions.hpp"
 
 namespace hypotrack {

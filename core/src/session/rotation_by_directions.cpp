@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "config/read_value.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::internal {
 namespace {

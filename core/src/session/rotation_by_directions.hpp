@@ -4,9 +4,9 @@
 #include <span>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "config/read_value.hpp"
-#include "hypotrack/data_file.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::internal {
 namespace {

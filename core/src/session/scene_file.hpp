@@ -11,8 +11,8 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "session/shape_settings.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"

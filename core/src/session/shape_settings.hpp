@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "hypotrack/start.hpp"
+#include "hypotrack/plugin/start.hpp"
 
 #include "plugin/plugin_call.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "base/exported.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

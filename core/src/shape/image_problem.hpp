@@ -5,7 +5,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "shape/coverage.hpp"
 #include "shape/joint_fit.hpp"
 #include "shape/shape_targets.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/damping.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::internal {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "hypotrack/landmark_fit.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

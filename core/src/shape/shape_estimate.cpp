@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/shape.hpp"
 #include "shape/frame_sample.hpp"
 #include "shape/image_problem.hpp"
 #include "shape/landmark_problem.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "session/opened_scene.hpp"
 #include "session/shape_settings.hpp"
 #include "shape/shape_targets.hpp"

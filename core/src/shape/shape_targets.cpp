@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/shape.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "shape/joint_fit.hpp"
 
 namespace hypotrack {

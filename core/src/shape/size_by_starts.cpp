@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "shape/shape_estimate.hpp"
 
 namespace hypotrack::internal {

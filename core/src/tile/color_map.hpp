@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// Maps one camera's colours to another's: plain data and the one function that CPU and CUDA share,
 /// without Eigen and OpenCV.

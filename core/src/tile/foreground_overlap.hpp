@@ -4,8 +4,8 @@
 #include <span>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack {

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::internal {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,8 +1,7 @@
-#include "hypotrack/observation_checks.hpp"
-
 #include <fmt/format.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack {
 namespace {

@@ -4,9 +4,9 @@
 #include <opencv2/core/mat.hpp>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "tile/resample_plan.hpp"
 
 namespace hypotrack {

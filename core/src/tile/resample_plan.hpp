@@ -5,8 +5,8 @@
 
 #include "base/exported.hpp"
 #include "camera/lens_map.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "tile/color_map.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "plugin/plugin_call.hpp"
 #include "tile/frame_clock.hpp"
 #include "tile/tiles.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "camera/rectification.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "scene/posed_scene.hpp"
 #include "scene/visible_share.hpp"
 #include "tile/foreground_overlap.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/profile.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "track/displace.hpp"
 #include "track/model_search.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "track/frame_search.hpp"
 #include "track/occlude/occlusion.hpp"
 #include "track/recover/recovery.hpp"

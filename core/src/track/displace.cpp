@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "hypotrack/random.hpp"
+#include "hypotrack/plugin/random.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -8,8 +8,8 @@
 
 #include "base/profile.hpp"
 #include "cost/search_clock.hpp"
-#include "hypotrack/search.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "plugin/plugin_call.hpp"
 #include "track/search_cost.hpp"
 

@@ -11,9 +11,9 @@
 
 #include "base/exported.hpp"
 #include "cost/fallback_cost.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/search_record.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
 #include "track/color/still_background.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/profile.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "track/recover/held_models.hpp"
 #include "track/sighting.hpp"
 

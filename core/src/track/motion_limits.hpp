@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

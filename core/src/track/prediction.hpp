@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack {

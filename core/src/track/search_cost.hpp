@@ -5,8 +5,8 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/search_record.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "track/search_space.hpp"
 #include "track/search_tally.hpp"
 

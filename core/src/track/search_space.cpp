@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack::internal {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "track/motion_limits.hpp"
 #include "track/prediction.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "track/search_trace.hpp"
 
 namespace hypotrack {

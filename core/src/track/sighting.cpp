@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::internal {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/start.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/start.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

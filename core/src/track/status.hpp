@@ -3,9 +3,9 @@
 #include <deque>
 
 #include "base/exported.hpp"
-#include "hypotrack/judge.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/judge.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "tile/foreground_overlap.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/recovery_settings.hpp"

@@ -4,7 +4,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "track/uncertainty_settings.hpp"
 
 namespace hypotrack {

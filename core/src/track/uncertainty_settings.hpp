@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

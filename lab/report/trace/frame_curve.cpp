@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/csv.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "hand_points.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 

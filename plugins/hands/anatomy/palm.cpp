@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack {
 namespace {

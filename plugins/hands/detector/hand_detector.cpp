@@ -10,7 +10,7 @@
 #include "duplicates.hpp"
 #include "hand_landmarker.hpp"
 #include "hand_picture.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "joints.hpp"
 #include "palm_detector.hpp"
 #include "tiles.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/back_project.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::hands {
 namespace {

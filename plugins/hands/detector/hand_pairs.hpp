@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hand_detection.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::hands {
 

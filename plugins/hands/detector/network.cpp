@@ -6,7 +6,7 @@
 #include <new>
 #include <unordered_map>
 
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 #include "network_file.hpp"
 #include "network_plan.hpp"
 #include "omp_threads.hpp"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "network_builder.hpp"
 
 namespace hypotrack::hands {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/random.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/random.hpp"
 #include "weights.hpp"
 
 namespace hypotrack {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "weights.hpp"
 
 namespace hypotrack {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack {
 namespace {

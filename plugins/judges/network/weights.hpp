@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/judge.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/judge.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

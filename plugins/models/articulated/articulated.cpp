@@ -11,7 +11,7 @@
 
 #include "description.hpp"
 #include "hand_points.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "landmarks.hpp"
 #include "object_rig.hpp"
 #include "palm.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 #include "mechanism.hpp"
 
 namespace hypotrack::articulated {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::articulated {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "mechanism.hpp"
 
 namespace hypotrack::articulated {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "drives.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "tree.hpp"
 
 namespace hypotrack::articulated {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::articulated {
 

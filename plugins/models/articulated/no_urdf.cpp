@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "description.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::articulated {
 

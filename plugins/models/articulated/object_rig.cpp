@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 
 namespace hypotrack::articulated {
 

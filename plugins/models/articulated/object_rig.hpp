@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/mesh_io.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "mechanism.hpp"
 
 namespace hypotrack::articulated {

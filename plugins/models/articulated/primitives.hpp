@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::articulated {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 #include "object_rig.hpp"
 
 namespace hypotrack::articulated {

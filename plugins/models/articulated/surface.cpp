@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/texture_atlas.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::articulated {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::articulated {
 namespace {

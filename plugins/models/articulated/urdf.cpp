@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "description.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "urdf_text.hpp"
 
 namespace hypotrack::articulated {

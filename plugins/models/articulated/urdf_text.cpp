@@ -12,8 +12,8 @@
 #include <string_view>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "urdf_unread.hpp"
 
 namespace hypotrack::articulated {

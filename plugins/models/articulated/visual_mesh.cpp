@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "description.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/mesh_io.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "primitives.hpp"
 
 namespace hypotrack::articulated {

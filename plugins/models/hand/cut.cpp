@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

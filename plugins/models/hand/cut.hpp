@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 

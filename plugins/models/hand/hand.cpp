@@ -13,9 +13,9 @@
 
 #include "hand_points.hpp"
 #include "hand_shape.hpp"
-#include "hypotrack/mesh_io.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/shape.hpp"
 #include "names.hpp"
 #include "palm.hpp"
 #include "rig.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "hand_proportions.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack {
 namespace {

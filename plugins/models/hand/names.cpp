@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack {
 

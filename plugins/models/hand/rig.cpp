@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

@@ -90,8 +90,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/mesh_io.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

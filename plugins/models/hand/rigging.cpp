@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "hand_parameters.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "names.hpp"
 
 namespace hypotrack {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <opencv2/core/types.hpp>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 

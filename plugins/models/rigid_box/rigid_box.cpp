@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "box.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/mesh_io.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack {
 namespace {

@@ -13,8 +13,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "hypotrack/disk.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::contour {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contour_views.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "params.hpp"
 
 namespace hypotrack::contour {

@@ -8,9 +8,9 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/observation_checks.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "model_contours.hpp"
 
 namespace hypotrack::contour {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "line_distribution.hpp"
 #include "mixed_edge.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "color_histograms.hpp"
 #include "contour_views.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::contour {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "pose_slopes.hpp"
 
 namespace hypotrack::contour {

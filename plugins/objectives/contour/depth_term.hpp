@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "surface_points.hpp"
 
 namespace hypotrack::contour {

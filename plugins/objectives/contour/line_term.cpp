@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "pose_slopes.hpp"
 
 namespace hypotrack::contour {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "correspondence_lines.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::contour {
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cache_file.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "silhouette_edges.hpp"
 #include "trace_contour.hpp"
 

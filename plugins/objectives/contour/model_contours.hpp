@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "contour_views.hpp"
-#include "hypotrack/model.hpp"
-#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/plugin/model.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 #include "params.hpp"
 
 namespace hypotrack::contour {

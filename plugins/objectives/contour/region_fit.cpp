@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "line_term.hpp"
 
 namespace hypotrack::contour {

@@ -6,7 +6,7 @@
 #include "contour_views.hpp"
 #include "correspondence_lines.hpp"
 #include "depth_term.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::contour {
 

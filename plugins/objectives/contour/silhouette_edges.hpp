@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::contour {
 

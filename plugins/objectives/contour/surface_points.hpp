@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::contour {
 

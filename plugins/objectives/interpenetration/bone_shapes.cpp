@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "surface.hpp"
 
 namespace hypotrack::interpenetration {

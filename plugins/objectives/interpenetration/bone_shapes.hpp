@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "collision_shape.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::interpenetration {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bone_shapes.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::interpenetration {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "collision_term.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/skeleton.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 namespace hypotrack::interpenetration {
 

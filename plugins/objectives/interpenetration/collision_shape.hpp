@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "hypotrack/skeleton_pose.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 /// Solids that approximate parts of models, and the penetration depth of two of them. Metres,
 /// single precision; the same source for the CPU and the GPU.

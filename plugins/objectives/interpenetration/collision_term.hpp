@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "collision_shape.hpp"
-#include "hypotrack/skeleton_pose.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 namespace hypotrack::interpenetration {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "hypotrack/cuda/state_objective.cuh"
+#include "hypotrack/gpu/state_objective.cuh"
 #include "on_device.hpp"
 
 namespace hypotrack::interpenetration {

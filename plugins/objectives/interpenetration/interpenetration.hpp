@@ -5,8 +5,8 @@
 #include <string>
 
 #include "collision_plan.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::interpenetration {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "collision_term.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::interpenetration {
 

@@ -1,4 +1,4 @@
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 #include "interpenetration.hpp"
 #include "on_device.hpp"

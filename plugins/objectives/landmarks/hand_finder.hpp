@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "match.hpp"
 
 namespace hypotrack::landmarks {

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "hand_detector.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/observation_checks.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/stop.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::landmarks {
 namespace {

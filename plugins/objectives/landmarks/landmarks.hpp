@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hand_finder.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 #include "params.hpp"
 #include "side_check.hpp"
 #include "sight_term.hpp"

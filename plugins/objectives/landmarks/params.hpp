@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::landmarks {
 

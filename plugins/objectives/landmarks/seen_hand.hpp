@@ -2,7 +2,7 @@
 
 #include "hand_detection.hpp"
 #include "hand_model.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::landmarks {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::landmarks {
 namespace {

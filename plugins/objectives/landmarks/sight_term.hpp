@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::landmarks {
 

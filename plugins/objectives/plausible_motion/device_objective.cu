@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hypotrack/cuda/state_objective.cuh"
+#include "hypotrack/gpu/state_objective.cuh"
 #include "on_device.hpp"
 
 namespace hypotrack::plausible_motion {

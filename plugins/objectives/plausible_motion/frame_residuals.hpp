@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "motion_term.hpp"
 #include "params.hpp"
 

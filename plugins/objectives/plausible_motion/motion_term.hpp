@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hypotrack/skeleton_pose.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 /// Cost and residuals of plausible motion; the same source for the CPU and the GPU.
 namespace hypotrack::plausible_motion {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <memory>
 
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "motion_term.hpp"
 
 namespace hypotrack::plausible_motion {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::plausible_motion {
 

@@ -1,7 +1,7 @@
 #include "plausible_motion.hpp"
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/skeleton_pose.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "on_device.hpp"
 
 namespace hypotrack::plausible_motion {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "frame_residuals.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::plausible_motion {
 

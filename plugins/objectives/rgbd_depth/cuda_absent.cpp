@@ -1,5 +1,5 @@
 // Stands in for cuda/ in a build without a CUDA toolkit.
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "on_device.hpp"
 
 namespace hypotrack::rgbd_depth {

@@ -6,7 +6,7 @@
 #define RGBD_DEPTH_DEPTH_AGREEMENT_INL_HPP_
 #endif
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "observed.hpp"
 
 /// The per-pixel functions of the rgbd_depth objective, for every lane type (pixel.hpp).

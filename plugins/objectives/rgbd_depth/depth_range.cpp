@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "foreground-inl.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::rgbd_depth {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::rgbd_depth {
 

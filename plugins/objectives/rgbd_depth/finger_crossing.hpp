@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "finger_pair.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::rgbd_depth {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "observed.hpp"
 
 /// Foreground of one pixel, for the CPU and for CUDA.

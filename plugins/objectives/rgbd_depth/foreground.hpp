@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "foreground-inl.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {

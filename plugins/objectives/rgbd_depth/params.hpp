@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "energy.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "observed.hpp"
 
 namespace hypotrack::rgbd_depth {

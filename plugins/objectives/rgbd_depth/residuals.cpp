@@ -4,10 +4,10 @@
 #include <cmath>
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "depth_agreement-inl.hpp"
-#include "hypotrack/view_pixels-inl.hpp"
+#include "hypotrack/plugin/view_pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::rgbd_depth::HWY_NAMESPACE {

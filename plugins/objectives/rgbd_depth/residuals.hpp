@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "pixel_penalties.hpp"
 
 namespace hypotrack::rgbd_depth {

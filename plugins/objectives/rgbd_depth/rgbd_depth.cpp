@@ -3,8 +3,8 @@
 #include "checks.hpp"
 #include "depth_range.hpp"
 #include "energy.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/observation_checks.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "on_device.hpp"
 
 namespace hypotrack::rgbd_depth {

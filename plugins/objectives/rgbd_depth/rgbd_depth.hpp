@@ -7,7 +7,7 @@
 #include "energy.hpp"
 #include "finger_crossing.hpp"
 #include "foreground.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "params.hpp"
 #include "residuals.hpp"
 #include "score.hpp"

@@ -1,10 +1,10 @@
 #include "score.hpp"
 
 #define HWY_TARGET_INCLUDE "score.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "depth_agreement-inl.hpp"
-#include "hypotrack/view_pixels-inl.hpp"
+#include "hypotrack/plugin/view_pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::rgbd_depth::HWY_NAMESPACE {

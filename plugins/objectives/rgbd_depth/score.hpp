@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack::rgbd_depth {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "foreground.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/observation_checks.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::skin {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::skin {
 

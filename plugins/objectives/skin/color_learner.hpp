@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "color_model.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::skin {

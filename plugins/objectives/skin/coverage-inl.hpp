@@ -6,7 +6,7 @@
 #define SKIN_COVERAGE_INL_HPP_
 #endif
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// The per-pixel function of the skin objective, for every lane type (pixel.hpp).
 HYPOTRACK_PIXEL_BEGIN();

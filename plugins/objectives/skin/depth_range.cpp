@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::skin {
 

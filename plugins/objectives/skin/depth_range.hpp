@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "rule.hpp"
 
 namespace hypotrack::skin {

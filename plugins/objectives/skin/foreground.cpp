@@ -1,7 +1,7 @@
 #include "foreground.hpp"
 
 #include "depth_range.hpp"
-#include "hypotrack/unorm16.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::skin {
 namespace {

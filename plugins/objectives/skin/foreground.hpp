@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "color_learner.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "rule.hpp"
 #include "settings.hpp"
 

@@ -5,10 +5,10 @@
 #include "uncovered_residual.hpp"
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "coverage-inl.hpp"
-#include "hypotrack/view_pixels-inl.hpp"
+#include "hypotrack/plugin/view_pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::skin::HWY_NAMESPACE {

@@ -1,6 +1,6 @@
 #include "rule.hpp"
 
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::skin {
 

@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::skin {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::skin {
 

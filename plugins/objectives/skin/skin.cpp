@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "checks.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/observation_checks.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "on_device.hpp"
 #include "residuals.hpp"
 #include "score.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "foreground.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "params.hpp"
 
 namespace hypotrack::skin {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_color {

@@ -1,7 +1,7 @@
 #include "checks.hpp"
 
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/observation_checks.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::stereo_color {
 

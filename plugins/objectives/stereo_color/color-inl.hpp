@@ -4,8 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "hypotrack/bgr.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// Colour spaces of one pixel, for the CPU and for CUDA: channels in 0..1 as features.hpp defines
 /// them.

@@ -6,7 +6,7 @@
 #define STEREO_COLOR_COLOR_CONSISTENCY_INL_HPP_
 #endif
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// The per-pixel function of the stereo_color objective, for every lane type (pixel.hpp).
 HYPOTRACK_PIXEL_BEGIN();

@@ -8,7 +8,7 @@
 
 #include "color_consistency-inl.hpp"
 #include "features.hpp"
-#include "hypotrack/stereo_pixels-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels-inl.hpp"
 
 /// Looks up colours and weights of the pixels of a walk, in both views.
 HWY_BEFORE_NAMESPACE();

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// Arithmetic of the distinctiveness map, one pixel at a time, for the CPU and for CUDA. Without
 /// fused multiply-adds both give the same bits, up to atan and exp.

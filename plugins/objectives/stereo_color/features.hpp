@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "params.hpp"
 
 namespace hypotrack::stereo_color {

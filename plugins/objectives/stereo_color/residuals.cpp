@@ -4,7 +4,7 @@
 #include <cmath>
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "color_lookup-inl.hpp"
 

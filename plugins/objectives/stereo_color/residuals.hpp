@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <span>
 
-#include "hypotrack/pixel.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/pixel.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "params.hpp"
 #include "score.hpp"
 

@@ -1,7 +1,7 @@
 #include "score.hpp"
 
 #define HWY_TARGET_INCLUDE "score.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "color_lookup-inl.hpp"
 

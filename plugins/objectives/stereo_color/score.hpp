@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "features.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::stereo_color {
 

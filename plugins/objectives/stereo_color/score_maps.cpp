@@ -5,7 +5,7 @@
 #include <limits>
 
 #define HWY_TARGET_INCLUDE "score_maps.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "color_lookup-inl.hpp"
 

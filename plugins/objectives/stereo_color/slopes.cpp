@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #define HWY_TARGET_INCLUDE "slopes.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "color_lookup-inl.hpp"
 

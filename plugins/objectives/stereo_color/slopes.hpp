@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "hypotrack/pixel.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/pixel.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "params.hpp"
 #include "score.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "features.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "params.hpp"
 #include "residuals.hpp"
 #include "score.hpp"

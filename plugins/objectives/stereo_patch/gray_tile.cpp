@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "hypotrack/bgr.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::stereo_patch {
 

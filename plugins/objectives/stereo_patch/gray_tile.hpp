@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack::stereo_patch {
 

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "hypotrack/simd-inl.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/simd-inl.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "patch_similarity-inl.hpp"
 
 /// Comparisons of the patch around a pixel of the first view with that of the same pixel of the

@@ -6,7 +6,7 @@
 #define STEREO_PATCH_PATCH_SIMILARITY_INL_HPP_
 #endif
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 /// The per-pixel functions of the stereo_patch objective, for every lane type (pixel.hpp).
 HYPOTRACK_PIXEL_BEGIN();

@@ -6,8 +6,8 @@
 #define STEREO_PATCH_PLANE_WARP_INL_HPP_
 #endif
 
-#include "hypotrack/simd-inl.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/simd-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "volume_kernel.hpp"
 
 /// Warps the second view to the first by a plane in space that is parallel to the first view's

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/stereo_pixels.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack::stereo_patch {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "volume.hpp"
 
 namespace hypotrack::stereo_patch {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/quantize.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::stereo_patch {
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "params.hpp"
 #include "volume.hpp"
 

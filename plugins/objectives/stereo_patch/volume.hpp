@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/stereo_pixels.hpp"
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "planes.hpp"
 #include "settings.hpp"
 
@@ -32,7 +31,7 @@ struct Volume {
   }
 };
 
-/// Fills a volume for the first two views of a frame (checked: observation_checks.hpp). Warps the
+/// Fills a volume for the first two views of a frame (checked: objective.hpp). Warps the
 /// second view by every plane parallel to the first tile (bilinear), then compares patch by patch.
 /// The similarity is 0 for patches that extend beyond a tile or onto invalid pixels and, with
 /// `use_mask`, for pixels outside the first view's mask. Uses the best SIMD instruction set of this

@@ -9,7 +9,7 @@
 #include <vector>
 
 #define HWY_TARGET_INCLUDE "volume_kernel.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
 #include "patch_compare-inl.hpp"
 #include "plane_warp-inl.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hypotrack/view_pixels.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "settings.hpp"
 #include "volume.hpp"
 

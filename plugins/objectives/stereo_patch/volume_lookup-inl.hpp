@@ -6,7 +6,7 @@
 #define STEREO_PATCH_VOLUME_LOOKUP_INL_HPP_
 #endif
 
-#include "hypotrack/stereo_pixels-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels-inl.hpp"
 #include "patch_similarity-inl.hpp"
 #include "volume.hpp"
 

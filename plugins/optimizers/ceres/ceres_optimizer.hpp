@@ -4,9 +4,9 @@
 #include <span>
 #include <string_view>
 
-#include "hypotrack/linearization.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/linearization.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

@@ -1,5 +1,5 @@
 #include "ceres_optimizer.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <exception>
 #include <optional>
 
-#include "hypotrack/linearization.hpp"
-#include "hypotrack/offset_space.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/linearization.hpp"
+#include "hypotrack/plugin/offset_space.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 

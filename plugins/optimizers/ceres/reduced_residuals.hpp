@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 

@@ -3,7 +3,7 @@
 #include <pagmo/algorithms/cmaes.hpp>
 
 #include "generations.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 

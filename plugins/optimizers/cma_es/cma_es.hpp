@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

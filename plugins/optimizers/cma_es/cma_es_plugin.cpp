@@ -1,5 +1,5 @@
 #include "cma_es.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <pagmo/algorithms/de.hpp>
 
 #include "generations.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 namespace hypotrack {
 

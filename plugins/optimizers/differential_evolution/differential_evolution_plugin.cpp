@@ -1,5 +1,5 @@
 #include "differential_evolution.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

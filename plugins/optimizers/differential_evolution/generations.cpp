@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/offset_space.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/offset_space.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 namespace {

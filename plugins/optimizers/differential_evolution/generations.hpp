@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <pagmo/algorithm.hpp>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 

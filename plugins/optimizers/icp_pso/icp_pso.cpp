@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "constriction.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 namespace {

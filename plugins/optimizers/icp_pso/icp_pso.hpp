@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/particle.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/particle.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 namespace hypotrack {
 

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "hypotrack/damping.hpp"
-#include "hypotrack/linearization.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/linearization.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "levenberg_marquardt_params.hpp"
 
 namespace hypotrack {

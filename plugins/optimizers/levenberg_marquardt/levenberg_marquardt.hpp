@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "levenberg_marquardt_params.hpp"
 
 namespace hypotrack {

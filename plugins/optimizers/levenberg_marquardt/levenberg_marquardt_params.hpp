@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "hypotrack/params.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/params.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 namespace hypotrack {
 

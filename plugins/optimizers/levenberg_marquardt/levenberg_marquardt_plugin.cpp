@@ -1,4 +1,4 @@
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "levenberg_marquardt.hpp"
 
 namespace {

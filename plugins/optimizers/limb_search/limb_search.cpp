@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "hypotrack/random.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/random.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 namespace {

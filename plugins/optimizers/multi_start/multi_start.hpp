@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <memory>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 namespace hypotrack {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <type_traits>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "scaled_problem.hpp"
 
 namespace hypotrack {

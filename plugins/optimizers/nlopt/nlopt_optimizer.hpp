@@ -4,9 +4,9 @@
 #include <string>
 
 #include "algorithms.hpp"
-#include "hypotrack/linearization.hpp"
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/linearization.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 

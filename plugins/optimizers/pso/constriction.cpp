@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hypotrack/particle.hpp"
+#include "hypotrack/plugin/particle.hpp"
 
 namespace hypotrack {
 

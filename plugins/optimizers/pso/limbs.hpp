@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "constriction.hpp"
-#include "hypotrack/particle.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/particle.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "limbs.hpp"
 
 namespace hypotrack {

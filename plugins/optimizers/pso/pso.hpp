@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "pso_params.hpp"
 
 namespace hypotrack {
@@ -26,7 +26,7 @@ namespace hypotrack {
 /// - Every few generations some of the particles get one of their limbs replaced (LimbReset).
 ///
 /// r1 and r2 are words 0 and 1 of uniform4 at RandomIndex{dimension, particle, generation, 0}.
-/// Initial samples use the indices of start_sample.hpp. A limb's replacement uses {dimension,
+/// Initial samples use the indices of random.hpp. A limb's replacement uses {dimension,
 /// particle, generation, 3} and {0, particle, generation, 4}. The initial generation is number 0.
 ///
 /// The budget determines the number of generations. If it ends within the last one, only the first

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hypotrack/particle.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/particle.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 namespace hypotrack {
 

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "pso.hpp"
 #include "pso_cuda.hpp"
 

@@ -1,5 +1,5 @@
 // Stands in for the plugin in a build without a CUDA toolkit.
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "pso_cuda.hpp"
 
 namespace hypotrack {

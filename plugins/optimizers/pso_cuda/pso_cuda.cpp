@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "constriction.hpp"
-#include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/search.hpp"
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
+#include "hypotrack/gpu/device_cost.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "search_graph.hpp"
 #include "swarm_memory.hpp"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "pso_params.hpp"
 
 namespace hypotrack {

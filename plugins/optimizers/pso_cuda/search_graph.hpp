@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "hypotrack/cuda/best_cost.cuh"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/particle.hpp"
+#include "hypotrack/gpu/best_cost.cuh"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/plugin/particle.hpp"
 #include "swarm_layout.hpp"
 
 namespace hypotrack::cuda {

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/particle.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/particle.hpp"
 
 namespace hypotrack::cuda {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 #include "limbs.hpp"
 
 namespace hypotrack::cuda {

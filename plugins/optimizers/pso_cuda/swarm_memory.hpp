@@ -2,9 +2,9 @@
 
 #include <cstdint>
 
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/cuda/swarm_search.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/gpu/swarm_search.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "swarm_layout.hpp"
 
 namespace hypotrack::cuda {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
 

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 namespace hypotrack {
 

@@ -2,8 +2,8 @@
 #include <cstdint>
 
 #include "bvh_file.hpp"
-#include "hypotrack/model_files.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/output.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

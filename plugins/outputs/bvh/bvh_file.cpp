@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "euler_angles.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::bvh {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::bvh {
 namespace {

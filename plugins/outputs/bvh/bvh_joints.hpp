@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::bvh {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::gltf {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "glb_file.hpp"
-#include "hypotrack/model_files.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/output.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "model_node.hpp"
 
 namespace hypotrack {

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "drawn_mesh.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::gltf {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "glb_file.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::gltf {
 

@@ -1,8 +1,8 @@
 #include <optional>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/solution_json.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

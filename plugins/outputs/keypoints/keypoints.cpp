@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "hand_model.hpp"
-#include "hypotrack/model_files.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/tables.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/output.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "person.hpp"
 
 namespace hypotrack {

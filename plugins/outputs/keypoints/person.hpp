@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hand_points.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/solution.hpp"
 
 namespace hypotrack::keypoints {
 

@@ -1,4 +1,4 @@
-#include "hypotrack/overlay.hpp"
+#include "hypotrack/api/overlay.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,9 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/picture.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/picture.hpp"
+#include "hypotrack/api/overlay.hpp"
 
 namespace hypotrack::particles {
 namespace {

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <optional>
 
-#include "hypotrack/disk.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "map_panels.hpp"
 #include "swarm_panels.hpp"
 

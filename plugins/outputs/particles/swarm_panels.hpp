@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "figure.hpp"
-#include "hypotrack/output.hpp"
+#include "hypotrack/plugin/output.hpp"
 
 namespace hypotrack::particles {
 

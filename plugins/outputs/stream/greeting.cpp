@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 
 namespace hypotrack::stream {
 namespace {

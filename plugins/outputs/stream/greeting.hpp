@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hypotrack/output.hpp"
+#include "hypotrack/plugin/output.hpp"
 
 namespace hypotrack::stream {
 

@@ -10,7 +10,7 @@
 #include <chrono>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::stream {
 namespace {

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "greeting.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/solution_json.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "line_server.hpp"
 
 namespace hypotrack::stream {

@@ -1,9 +1,9 @@
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 
 #include <fmt/format.h>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
-#include "hypotrack/model_files.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/tables.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/output.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

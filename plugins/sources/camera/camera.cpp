@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "capture.hpp"
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/median.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "params.hpp"
 
 namespace hypotrack::live {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/stereo_layout.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::live {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "matcher.hpp"
 #include "params.hpp"
 #include "rectified_pair.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::depth_from_stereo {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::depth_from_stereo {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/image_file.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/truth.hpp"
+#include "hypotrack/api/image_file.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/truth.hpp"
 #include "layers.hpp"
 #include "timed_images.hpp"
 
@@ -22,10 +22,10 @@ namespace hypotrack {
 constexpr double kUsualRate = 30;  // frames per second
 
 /// Reads pictures from disk, one per view and frame: colour, depth or both. Truth tables
-/// (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp. A row's frame
-/// is the number in the image's file name (with * instead of a number: the position in the sorted
-/// list), unless `truth_offset` shifts it. A frame's time is its number over the frame rate, or
-/// that of its time stamp since the first frame's.
+/// (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/api/tables.hpp. A row's
+/// frame is the number in the image's file name (with * instead of a number: the position in the
+/// sorted list), unless `truth_offset` shifts it. A frame's time is its number over the frame rate,
+/// or that of its time stamp since the first frame's.
 class ImageSequence : public Source {
  public:
   using Params = ImageSequenceParams;

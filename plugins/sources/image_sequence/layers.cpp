@@ -1,6 +1,6 @@
 #include "layers.hpp"
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 

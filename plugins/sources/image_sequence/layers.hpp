@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/stereo_layout.hpp"
-#include "hypotrack/truth.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
+#include "hypotrack/plugin/params.hpp"
+#include "hypotrack/plugin/truth.hpp"
 #include "timestamps.hpp"
 
 namespace hypotrack {

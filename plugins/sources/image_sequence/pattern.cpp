@@ -8,7 +8,7 @@
 #include <limits>
 #include <set>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
-#include "hypotrack/pair_by_time.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/timeline.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack {
 namespace {

@@ -10,11 +10,10 @@
 #include <optional>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
-#include "hypotrack/suggest.hpp"
-#include "hypotrack/text.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 

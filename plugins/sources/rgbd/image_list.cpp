@@ -11,10 +11,10 @@
 #include <string_view>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/pair_by_time.hpp"
-#include "hypotrack/text.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/text.hpp"
+#include "hypotrack/api/timeline.hpp"
 
 namespace hypotrack::rgbd {
 namespace {

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/image_file.hpp"
-#include "hypotrack/median.hpp"
-#include "hypotrack/pair_by_time.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/truth.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/image_file.hpp"
+#include "hypotrack/api/timeline.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/truth.hpp"
 #include "image_list.hpp"
 
 namespace hypotrack::rgbd {

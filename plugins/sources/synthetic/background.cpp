@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "surfaces.hpp"
 
 namespace hypotrack::synthetic {

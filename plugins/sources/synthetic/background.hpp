@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/model.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "params.hpp"
 
 namespace hypotrack::synthetic {

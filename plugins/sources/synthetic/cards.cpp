@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "surfaces.hpp"
 
 namespace hypotrack::synthetic {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/model.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/plugin/model.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::synthetic {
 

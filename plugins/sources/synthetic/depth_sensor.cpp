@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/random.hpp"
+#include "hypotrack/plugin/random.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

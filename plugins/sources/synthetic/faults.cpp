@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::synthetic {
 

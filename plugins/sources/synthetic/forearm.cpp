@@ -8,8 +8,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "surfaces.hpp"
 
 namespace hypotrack::synthetic {

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/model.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/model.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::synthetic {
 

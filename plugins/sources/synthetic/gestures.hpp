@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::synthetic {
 

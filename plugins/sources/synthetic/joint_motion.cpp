@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <optional>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/landmark_fit.hpp"
-#include "hypotrack/median.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "script.hpp"
 
 namespace hypotrack::synthetic {

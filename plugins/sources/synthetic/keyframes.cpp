@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

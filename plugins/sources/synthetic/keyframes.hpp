@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "gestures.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::synthetic {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::synthetic {
 

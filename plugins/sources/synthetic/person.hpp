@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/model.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/model.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::synthetic {
 

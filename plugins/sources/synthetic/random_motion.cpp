@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "keyframes.hpp"
 #include "random_poses.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "gestures.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "script.hpp"
 
 namespace hypotrack::synthetic {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "keyframes.hpp"
 
 namespace hypotrack::synthetic {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "gestures.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "random_motion.hpp"
 
 namespace hypotrack::synthetic {

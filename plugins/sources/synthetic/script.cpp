@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "keyframes.hpp"
 
 namespace hypotrack::synthetic {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "gestures.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "motion.hpp"
 
 namespace hypotrack::synthetic {

@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/random.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/random.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

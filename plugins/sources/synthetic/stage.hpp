@@ -6,8 +6,8 @@
 
 #include "cards.hpp"
 #include "forearm.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::synthetic {
 

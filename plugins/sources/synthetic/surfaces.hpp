@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::synthetic {
 

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <optional>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/stereo_layout.hpp"
-#include "hypotrack/truth.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
+#include "hypotrack/plugin/params.hpp"
+#include "hypotrack/plugin/truth.hpp"
 
 namespace hypotrack {
 

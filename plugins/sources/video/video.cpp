@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/media.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/stereo_layout.hpp"
-#include "hypotrack/video_timeline.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/stereo_layout.hpp"
+#include "hypotrack/api/timeline.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "params.hpp"
 
 namespace hypotrack {
 
 /// Reads two videos, whose frames pair by their times, or one with both views in it. Begins and
 /// ends with a pair. Truth tables (`truth_states`, `truth_landmarks`) are CSV as described in
-/// hypotrack/tables.hpp. Their frames are those of the first video, gaps counted, unless
+/// hypotrack/api/tables.hpp. Their frames are those of the first video, gaps counted, unless
 /// `truth_offset` shifts them.
 class Video : public Source {
  public:

@@ -1,6 +1,6 @@
-#include "hypotrack/clicks.hpp"
+#include "hypotrack/api/clicks.hpp"
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

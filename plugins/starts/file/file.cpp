@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/pose.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

@@ -10,8 +10,8 @@
 #include "hand_model.hpp"
 #include "hand_pairs.hpp"
 #include "hand_size.hpp"
-#include "hypotrack/landmark_fit.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "other_view.hpp"
 #include "side_check.hpp"
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::hands {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "hand_pairs.hpp"
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::hands {
 namespace {

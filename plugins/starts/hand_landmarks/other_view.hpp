@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hand_detector.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::hands {
 

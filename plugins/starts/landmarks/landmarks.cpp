@@ -3,10 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/landmark_fit.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

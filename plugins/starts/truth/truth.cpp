@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

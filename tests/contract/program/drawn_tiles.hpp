@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::contract {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "report.hpp"
 
 namespace hypotrack::contract {

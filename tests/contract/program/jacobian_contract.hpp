@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::contract {
 

@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "subject.hpp"
 
 namespace hypotrack::contract {

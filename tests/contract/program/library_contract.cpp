@@ -5,7 +5,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "hypotrack/suggest.hpp"
+#include "hypotrack/api/text.hpp"
 #include "plugin/capabilities.hpp"
 #include "plugin/help_lines.hpp"
 #include "plugin/scene_keys.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "subject.hpp"
 #include "test_models.hpp"
 

@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/output.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "output/run_directory.hpp"
 #include "output/run_output.hpp"
 #include "session/opened_scene.hpp"

@@ -5,7 +5,7 @@
 #include <future>
 #include <optional>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "jacobian_contract.hpp"
 #include "report.hpp"
 

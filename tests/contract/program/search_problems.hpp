@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/random.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/random.hpp"
 
 namespace hypotrack::test {
 

@@ -1,6 +1,6 @@
 #include "setting.hpp"
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "report.hpp"
 
 namespace hypotrack::contract {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drawn_tiles.hpp"
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::contract {
 

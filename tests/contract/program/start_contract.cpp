@@ -2,7 +2,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "subject.hpp"
 #include "test_models.hpp"
 

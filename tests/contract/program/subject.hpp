@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "report.hpp"
 
 namespace hypotrack::contract {

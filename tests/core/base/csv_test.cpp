@@ -6,7 +6,7 @@
 
 #include "base/text_file.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -8,7 +8,7 @@
 
 #include "base/system_problem.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

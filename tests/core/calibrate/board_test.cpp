@@ -9,7 +9,7 @@
 #include "calibrate/chessboard.hpp"
 #include "calibrate/marker_layout.hpp"
 #include "calibrate/wrong_board.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "calibrate/verdict.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "stereo_calibration_fixture.hpp"
 
 namespace hypotrack::calibrate {

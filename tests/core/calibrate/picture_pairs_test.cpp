@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "oriented_pictures.hpp"
 #include "test_paths.hpp"
 #include "video_writer.hpp"

@@ -7,7 +7,7 @@
 #include "calibrate/coverage.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "calibrate/verdict.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "stereo_calibration_fixture.hpp"
 #include "test_paths.hpp"
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::test {

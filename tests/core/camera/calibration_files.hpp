@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

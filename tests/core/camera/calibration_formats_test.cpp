@@ -6,7 +6,7 @@
 #include <random>
 
 #include "calibration_files.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 
 #include <gmock/gmock.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,7 @@
 #include <random>
 
 #include "camera/distortion.hpp"
-#include "hypotrack/back_project.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_cameras.hpp"
 
 namespace hypotrack {

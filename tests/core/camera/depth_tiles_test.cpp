@@ -5,7 +5,7 @@
 #include <memory>
 #include <opencv2/calib3d.hpp>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_cameras.hpp"
 #include "test_models.hpp"
 #include "tile/resample.hpp"

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "calibration_files.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

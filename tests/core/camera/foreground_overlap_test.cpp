@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 #include "tile/tiles.hpp"
 

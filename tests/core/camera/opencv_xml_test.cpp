@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "calibration_files.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

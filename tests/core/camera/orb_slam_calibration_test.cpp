@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "calibration_files.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

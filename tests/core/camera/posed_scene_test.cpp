@@ -7,7 +7,7 @@
 #include <random>
 
 #include "every_target.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "scene/simd_kernels.hpp"
 #include "test_cameras.hpp"
 #include "test_models.hpp"

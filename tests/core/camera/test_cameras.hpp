@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::test {
 

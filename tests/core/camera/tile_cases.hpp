@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/gpu/layout.hpp"
 #include "test_cameras.hpp"
 #include "tile/resample.hpp"
 

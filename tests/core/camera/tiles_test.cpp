@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "box_views.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_cameras.hpp"
 #include "tile/resample.hpp"
 #include "tile_cases.hpp"

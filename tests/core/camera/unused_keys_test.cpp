@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "calibration_files.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

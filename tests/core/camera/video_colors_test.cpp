@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 #include "video_writer.hpp"
 

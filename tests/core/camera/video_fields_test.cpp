@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "field_video.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 #include "video_writer.hpp"
 

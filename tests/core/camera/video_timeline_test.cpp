@@ -1,5 +1,3 @@
-#include "hypotrack/video_timeline.hpp"
-
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <cmath>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/timeline.hpp"
 
 namespace hypotrack {
 namespace {

@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

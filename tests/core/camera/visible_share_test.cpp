@@ -3,7 +3,7 @@
 #include <memory>
 #include <random>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 #include "tile/tiles.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "clicked_scene.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::clicking {
 namespace {

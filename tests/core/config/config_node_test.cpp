@@ -1,8 +1,8 @@
 #include <fstream>
 
 #include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 #include "parse_error.hpp"
 #include "test_paths.hpp"
 

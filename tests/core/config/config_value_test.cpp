@@ -1,4 +1,4 @@
-#include "hypotrack/config_value.hpp"
+#include "hypotrack/api/config_value.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::detail {
 namespace {

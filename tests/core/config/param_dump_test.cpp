@@ -4,7 +4,7 @@
 #include <random>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "sample_params.hpp"
 
 namespace hypotrack::test {

@@ -1,8 +1,8 @@
 #include <array>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "sample_params.hpp"
 
 namespace hypotrack::test {

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::test {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::test {
 

@@ -1,6 +1,6 @@
-#include "hypotrack/suggest.hpp"
-
 #include <gtest/gtest.h>
+
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack {
 namespace {

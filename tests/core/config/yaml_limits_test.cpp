@@ -2,8 +2,8 @@
 
 #include "config/yaml_text.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
 #include "parse_error.hpp"
 #include "test_paths.hpp"
 

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "every_target.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "scene/simd_kernels.hpp"
 #include "test_models.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cost/cost.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "linearized_terms.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"

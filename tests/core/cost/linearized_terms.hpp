@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack::test {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cost/raster_kernels.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::test {
 

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_models.hpp"
 #include "track/tangent.hpp"
 

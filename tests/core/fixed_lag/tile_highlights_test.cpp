@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "shiny_ball.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 

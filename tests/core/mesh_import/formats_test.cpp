@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 
 namespace hypotrack::test {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "glb_writer.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 
 namespace hypotrack::test {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/media.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 
 namespace hypotrack::test {

@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 
 #include "glb_writer.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 
 namespace hypotrack::test {
 namespace {

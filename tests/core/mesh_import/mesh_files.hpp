@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 
 namespace hypotrack::test {

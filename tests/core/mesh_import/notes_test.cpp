@@ -5,7 +5,7 @@
 #include <array>
 #include <cstring>
 
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 
 namespace hypotrack::test {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "mesh_files.hpp"
 #include "model/import/process.hpp"
 #include "model/import/wire.hpp"

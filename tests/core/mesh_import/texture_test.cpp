@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "hypotrack/media.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 #include "oriented_pictures.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "mesh_files.hpp"
 
 namespace hypotrack::test {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "not_a_number.hpp"
 
 namespace hypotrack {

@@ -1,12 +1,12 @@
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/shape.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -3,9 +3,9 @@
 #include <random>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/landmark_fit.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <random>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

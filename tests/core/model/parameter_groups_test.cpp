@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

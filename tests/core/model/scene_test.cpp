@@ -1,4 +1,4 @@
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

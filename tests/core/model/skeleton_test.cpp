@@ -1,10 +1,10 @@
-#include "hypotrack/skeleton.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

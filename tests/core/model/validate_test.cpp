@@ -3,8 +3,8 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <random>
 
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 #include "output/recording_writer.hpp"
 #include "test_paths.hpp"
 

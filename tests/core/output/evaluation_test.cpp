@@ -7,7 +7,7 @@
 #include <string>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

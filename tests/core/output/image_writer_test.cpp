@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

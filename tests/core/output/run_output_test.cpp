@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "output/output_queue.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"

@@ -13,8 +13,8 @@
 
 #include "cost/cost.hpp"
 #include "cost/hypothesis_renderer.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::test {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/overlay.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/overlay.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {

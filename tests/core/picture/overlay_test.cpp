@@ -1,4 +1,4 @@
-#include "hypotrack/overlay.hpp"
+#include "hypotrack/api/overlay.hpp"
 
 #include <gtest/gtest.h>
 

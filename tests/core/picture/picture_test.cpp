@@ -1,9 +1,9 @@
-#include "hypotrack/picture.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <opencv2/core.hpp>
+
+#include "hypotrack/api/overlay.hpp"
 
 namespace hypotrack::test {
 namespace {

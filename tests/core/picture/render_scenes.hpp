@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/model.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::test {
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <set>
 
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {

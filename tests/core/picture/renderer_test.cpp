@@ -1,4 +1,4 @@
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <thread>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {

@@ -1,5 +1,5 @@
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "plugin_fixtures.hpp"
 
 namespace hypotrack::test {

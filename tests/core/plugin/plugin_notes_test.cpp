@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "hypotrack/plugin_log.hpp"
+#include "hypotrack/plugin/plugin_object.hpp"
 #include "plugin/running_plugin.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/clicks.hpp"
+#include "hypotrack/api/clicks.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

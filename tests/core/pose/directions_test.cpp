@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -6,11 +6,11 @@
 #include <memory>
 #include <random>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/pose.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/params.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "session/opened_scene.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::test {
 

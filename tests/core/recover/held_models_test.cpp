@@ -5,7 +5,7 @@
 #include <memory>
 #include <numbers>
 
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

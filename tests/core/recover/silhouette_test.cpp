@@ -5,7 +5,7 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

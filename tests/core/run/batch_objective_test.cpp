@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/objective.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {

@@ -6,11 +6,11 @@
 #include <random>
 
 #include "expect_error.hpp"
-#include "hypotrack/config_value.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/search.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/config_value.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -1,13 +1,13 @@
-#include "hypotrack/frame_cost.hpp"
+#include "hypotrack/api/frame_cost.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {

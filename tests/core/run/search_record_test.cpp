@@ -1,11 +1,10 @@
-#include "hypotrack/search_record.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
 
+#include "hypotrack/plugin/output.hpp"
 #include "run/run_scene.hpp"
 #include "test_paths.hpp"
 

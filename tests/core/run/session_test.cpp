@@ -1,4 +1,4 @@
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "scoped_variable.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"

@@ -1,4 +1,4 @@
-#include "hypotrack/source.hpp"
+#include "hypotrack/plugin/source.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

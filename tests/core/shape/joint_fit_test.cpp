@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

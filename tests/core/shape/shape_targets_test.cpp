@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "shaped_model.hpp"
 
 namespace hypotrack {

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/scene.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/shape.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::test {

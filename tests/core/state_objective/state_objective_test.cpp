@@ -4,8 +4,8 @@
 
 #include "cost/cost.hpp"
 #include "device.hpp"
-#include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/device_cost.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 #include "test_models.hpp"
 #include "track/search_space.hpp"
 #include "weighted_sum.hpp"

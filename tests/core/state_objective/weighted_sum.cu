@@ -1,6 +1,6 @@
 #include "weighted_sum.hpp"
 
-#include "hypotrack/cuda/state_objective.cuh"
+#include "hypotrack/gpu/state_objective.cuh"
 
 namespace hypotrack::test {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 
 namespace hypotrack {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_models.hpp"
 #include "track/loop/scene_tracker.hpp"
 

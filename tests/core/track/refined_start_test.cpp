@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_models.hpp"
 #include "track/frame_search.hpp"
 

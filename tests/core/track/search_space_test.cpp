@@ -8,8 +8,8 @@
 #include <random>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/stop_scope.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 #include "judges.hpp"
 #include "test_models.hpp"
 #include "track/loop/scene_tracker.hpp"

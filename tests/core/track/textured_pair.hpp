@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::test {

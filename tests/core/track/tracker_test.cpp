@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "shiny_ball.hpp"
 #include "test_models.hpp"
 #include "track/loop/scene_tracker.hpp"

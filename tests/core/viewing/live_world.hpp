@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 #include "test_models.hpp"
 #include "viewing/live_frame.hpp"
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/config.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/pose.hpp"
 #include "live_world.hpp"
 #include "test_paths.hpp"
 

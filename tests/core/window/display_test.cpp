@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "window/process_window.hpp"
 
 namespace hypotrack::test {

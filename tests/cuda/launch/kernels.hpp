@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::test {
 

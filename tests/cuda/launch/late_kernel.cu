@@ -1,4 +1,4 @@
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "kernels.hpp"
 
 namespace hypotrack::test {

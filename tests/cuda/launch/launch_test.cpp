@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "device.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "kernels.hpp"
 
 namespace hypotrack {

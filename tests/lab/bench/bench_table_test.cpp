@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/bench/bench_numbers.hpp"
 #include "test_paths.hpp"
 

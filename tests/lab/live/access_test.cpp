@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

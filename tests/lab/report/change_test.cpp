@@ -4,8 +4,8 @@
 #include <iterator>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "lab/report/change_data.hpp"
 #include "lab/report/report.hpp"
 #include "study_fixture.hpp"

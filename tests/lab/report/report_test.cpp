@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/report/packed.hpp"
 #include "lab/report/page.hpp"
 #include "lab/report/replay.hpp"

@@ -9,9 +9,9 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "hypotrack/media.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/report/comparison.hpp"
 #include "lab/report/plot_data.hpp"
 #include "lab/report/report_data.hpp"

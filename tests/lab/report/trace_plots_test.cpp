@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/report/trace/frame_curve.hpp"
 #include "test_paths.hpp"
 

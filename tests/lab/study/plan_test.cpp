@@ -5,7 +5,7 @@
 #include <set>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/study/recordings.hpp"
 #include "study_test.hpp"
 

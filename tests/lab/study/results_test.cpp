@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
 #include "study_test.hpp"

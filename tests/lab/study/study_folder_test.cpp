@@ -7,7 +7,7 @@
 #include <csignal>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {

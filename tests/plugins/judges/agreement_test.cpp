@@ -3,7 +3,7 @@
 #include <string>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "judges.hpp"
 
 namespace hypotrack {

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::test {
 namespace {

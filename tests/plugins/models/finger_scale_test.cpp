@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "model_plugins.hpp"
 
 namespace hypotrack::test {

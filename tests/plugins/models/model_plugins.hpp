@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

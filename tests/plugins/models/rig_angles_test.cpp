@@ -3,8 +3,8 @@
 #include <map>
 
 #include "hand_parameters.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "rigged_fixture.hpp"
 
 namespace hypotrack::test {

@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "rigged_fixture.hpp"
 
 namespace hypotrack::test {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "model_plugins.hpp"
 #include "plugin/plugin_notes.hpp"
 

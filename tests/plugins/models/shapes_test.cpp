@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/shape.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/shape.hpp"
 #include "model_plugins.hpp"
 
 namespace hypotrack::test {

@@ -9,7 +9,7 @@
 
 #include "ceres/ceres_optimizer.hpp"
 #include "ceres/reduced_residuals.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {

@@ -1,8 +1,8 @@
-#include "hypotrack/damping.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack {
 namespace {

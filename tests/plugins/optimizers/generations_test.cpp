@@ -10,7 +10,7 @@
 
 #include "cma_es.hpp"
 #include "differential_evolution.hpp"
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <memory>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "levenberg_marquardt/levenberg_marquardt.hpp"
 #include "pso/pso.hpp"
 #include "random_search/random_search.hpp"

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "cost/difference_blocks.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "limb_search.hpp"
 #include "multi_start.hpp"
 #include "pipeline.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "search_problems.hpp"
 #include "staying_optimizer.hpp"
 

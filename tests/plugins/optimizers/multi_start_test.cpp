@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "search_problems.hpp"
 #include "staying_optimizer.hpp"
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "nlopt_optimizer.hpp"
 #include "scaled_problem.hpp"
 #include "search_problems.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "nlopt_optimizer.hpp"
 #include "search_problems.hpp"
 

@@ -1,4 +1,4 @@
-#include "hypotrack/offset_space.hpp"
+#include "hypotrack/plugin/offset_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "limb_search.hpp"
 #include "multi_start.hpp"
 #include "random_search.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/random.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/random.hpp"
 #include "pso/constriction.hpp"
 #include "search_problems.hpp"
 

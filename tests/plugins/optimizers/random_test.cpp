@@ -1,4 +1,4 @@
-#include "hypotrack/random.hpp"
+#include "hypotrack/plugin/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "hypotrack/linearization.hpp"
+#include "hypotrack/plugin/linearization.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/start_points.hpp"
+#include "hypotrack/plugin/start_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/optimizer.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
+#include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack::test {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "base/subprocess.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "imported_motion.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"

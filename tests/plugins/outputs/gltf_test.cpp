@@ -11,8 +11,8 @@
 #include <tuple>
 
 #include "expect_error.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "imported_motion.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"

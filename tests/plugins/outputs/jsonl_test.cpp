@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/solution_json.hpp"
+#include "hypotrack/api/solution.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/output.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/output.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "expect_error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/session.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"
 

@@ -5,8 +5,8 @@
 #include <set>
 
 #include "expect_error.hpp"
-#include "hypotrack/session.hpp"
-#include "hypotrack/solution_json.hpp"
+#include "hypotrack/api/session.hpp"
+#include "hypotrack/api/solution.hpp"
 #include "line_server.hpp"
 #include "output_run.hpp"
 #include "stream_reader.hpp"

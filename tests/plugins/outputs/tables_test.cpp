@@ -1,4 +1,4 @@
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "expect_error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"
 

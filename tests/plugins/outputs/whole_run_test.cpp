@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hypotrack/session.hpp"
+#include "hypotrack/api/session.hpp"
 #include "imported_motion.hpp"
 #include "test_paths.hpp"
 

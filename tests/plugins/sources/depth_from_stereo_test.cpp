@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {

@@ -1,4 +1,4 @@
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "camera/orientation.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack::test {

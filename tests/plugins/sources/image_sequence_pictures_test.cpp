@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "image_sequence_fixture.hpp"
 #include "oriented_pictures.hpp"
 

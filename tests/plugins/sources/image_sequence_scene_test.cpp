@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "image_sequence_fixture.hpp"
 
 namespace hypotrack {

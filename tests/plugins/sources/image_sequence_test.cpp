@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "image_sequence_fixture.hpp"
 
 namespace hypotrack {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {

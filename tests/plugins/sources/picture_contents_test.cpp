@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 #include "oriented_pictures.hpp"
 #include "test_paths.hpp"
 

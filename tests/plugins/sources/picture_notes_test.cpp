@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/image_file.hpp"
 #include "oriented_pictures.hpp"
 #include "test_paths.hpp"
 

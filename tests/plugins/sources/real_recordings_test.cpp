@@ -4,7 +4,7 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "oriented_pictures.hpp"
 #include "source_fixture.hpp"
 

@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 

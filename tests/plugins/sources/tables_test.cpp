@@ -1,4 +1,4 @@
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/tables.hpp"
 
 #include <gmock/gmock.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/truth.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/truth.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 

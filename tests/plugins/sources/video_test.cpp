@@ -6,8 +6,8 @@
 #include <opencv2/videoio.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
 #include "source_fixture.hpp"
 #include "video_writer.hpp"
 

@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "app_test.hpp"
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/media.hpp"
 #include "rendered_board.hpp"
 #include "test_paths.hpp"
 

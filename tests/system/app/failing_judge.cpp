@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "fill_stack.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

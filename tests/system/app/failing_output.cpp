@@ -3,7 +3,7 @@
 #include <csignal>
 #include <stdexcept>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "app_test.hpp"
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "app_test.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/media.hpp"
 #include "new_scene/find_recording.hpp"
 
 namespace hypotrack::test {

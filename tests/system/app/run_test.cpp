@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "app_test.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::test {
 namespace {

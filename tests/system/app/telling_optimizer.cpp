@@ -1,5 +1,5 @@
 // A search that evaluates its start and the previous answer, and tells which was better.
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

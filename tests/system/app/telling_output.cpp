@@ -1,7 +1,7 @@
 // An output without files, which adds columns to track.csv.
 #include <cmath>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "app_test.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::test {
 namespace {

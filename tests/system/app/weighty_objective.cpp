@@ -1,5 +1,5 @@
 // A plugin with a parameter whose name is the scene's.
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace {
 

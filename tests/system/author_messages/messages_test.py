@@ -34,7 +34,7 @@ GOOD = mine(PARAMS + "  explicit Mine(const Params&) {}\n" + FUNCTIONS)
 
 class Messages(unittest.TestCase):
     def errors(self, plugin, standard="-std=c++20"):
-        text = ('#include "hypotrack/plugin.hpp"\nusing namespace hypotrack;\n' + plugin +
+        text = ('#include "hypotrack/plugin/plugin.hpp"\nusing namespace hypotrack;\n' + plugin +
                 'HYPOTRACK_PLUGIN(Mine, "a plugin", "")\n')
         done = subprocess.run(
             COMPILER + NAMES + [standard, "-fsyntax-only", "-fdiagnostics-color=never", "-x", "c++",

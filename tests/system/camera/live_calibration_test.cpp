@@ -3,7 +3,7 @@
 #include <thread>
 
 #include "app_test.hpp"
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/api/calibration.hpp"
 #include "mjpeg_server.hpp"
 #include "rendered_board.hpp"
 

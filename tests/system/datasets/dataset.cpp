@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "gestures.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "penetration.hpp"
 #include "script.hpp"
 #include "test_paths.hpp"

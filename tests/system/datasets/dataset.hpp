@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/scene.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack::test {
 

@@ -10,8 +10,8 @@
 #include <filesystem>
 
 #include "dataset.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "output/metrics/motion_speeds.hpp"
 #include "penetration.hpp"
 

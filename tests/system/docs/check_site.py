@@ -81,10 +81,10 @@ def missing_pages(source, site):
     """Returns what a reader would miss."""
     expected = {p.relative_to(source / "docs").with_suffix(".html") for p in (source / "docs").rglob("*.md")}
     expected -= {Path("index.html")}
-    expected |= {Path(p) for p in ("index.html", "overview.html", "contributing.html", "reference/cpp/tracker.hpp.html")}
+    expected |= {Path(p) for p in ("index.html", "overview.html", "contributing.html", "reference/cpp/api_tracker.hpp.html")}
     errors = [f"{page}: there is no such page" for page in sorted(expected) if not (site / page).exists()]
     for page, words in (("reference/python.html", "Finds the scene in two pictures"),
-                        ("reference/cpp/tracker.hpp.html", "Finds the scene in the next frame"),
+                        ("reference/cpp/api_tracker.hpp.html", "Finds the scene in the next frame"),
                         ("search/search_index.json", "Finds the scene in the next frame")):
         if words not in (site / page).read_text():
             errors.append(f"{page}: does not have '{words}'")

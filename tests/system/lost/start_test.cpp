@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 

@@ -12,7 +12,7 @@ fail() { echo "$1"; exit 1; }
 cmake --install "$build_dir" --prefix "$scratch/prefix" >"$scratch/install.log"
 hypotrack=$scratch/prefix/bin/hypotrack
 cd "$scratch"
-kinds=$(sed -n 's/^  KIND(\([a-z]*\), .*/\1/p' prefix/include/hypotrack/plugin.hpp)
+kinds=$(sed -n 's/^  KIND(\([a-z]*\), .*/\1/p' prefix/include/hypotrack/plugin/plugin.hpp)
 printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(all LANGUAGES CXX)' 'enable_testing()' \
   >CMakeLists.txt
 for kind in $kinds; do

@@ -1,5 +1,5 @@
-#include "hypotrack/linearization.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/linearization.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 /// Gauss-Newton steps, halved until they lower the cost, by the helpers of the public headers.
 class GaussNewton final : public hypotrack::Optimizer {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 

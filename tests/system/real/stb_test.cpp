@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/landmark_fit.hpp"
+#include "hypotrack/plugin/landmark_fit.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"

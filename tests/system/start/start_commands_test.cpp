@@ -1,6 +1,6 @@
 
 #include "app_test.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack::test {
 namespace {

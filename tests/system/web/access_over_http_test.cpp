@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 #include "served_run.hpp"
 
 namespace hypotrack::test {

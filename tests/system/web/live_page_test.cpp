@@ -6,7 +6,7 @@
 #include <regex>
 #include <thread>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "served_run.hpp"
 
 namespace hypotrack::test {

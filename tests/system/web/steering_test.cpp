@@ -3,7 +3,7 @@
 #include <csignal>
 #include <filesystem>
 
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 #include "served_run.hpp"
 
 namespace hypotrack::test {

@@ -6,8 +6,8 @@
 #include "base/subprocess.hpp"
 #include "expect_error.hpp"
 #include "hand_labeler.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "pictures.hpp"
 #include "test_paths.hpp"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hand_shape.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "surface.hpp"
 #include "the_hand.hpp"
 

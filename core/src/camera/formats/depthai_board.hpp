@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 
 // The cameras of an OAK board, by their sockets, and where they stand to each other.
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/calibration.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/calibration.hpp"
+#include "hypotrack/api/config.hpp"
 
 // Readers of calibration files, one for each format. They return cameras in the order of the file,
 // without widths and heights where it gives none. They throw DataError, naming file, line and key.

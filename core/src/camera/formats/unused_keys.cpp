@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
+#include "hypotrack/api/config.hpp"
 
 // Sections and keys of a ZED's factory calibration.
 

@@ -4,7 +4,7 @@
 #include <cctype>
 
 #include "camera/formats/zed_sections.hpp"
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {

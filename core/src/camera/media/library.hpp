@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/exported.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 
 #include "base/installation.hpp"
 #include "camera/media/library.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "camera/media/ffmpeg.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "camera/timeline/video_clock.hpp"
-#include "hypotrack/video_timeline.hpp"
+#include "hypotrack/api/timeline.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

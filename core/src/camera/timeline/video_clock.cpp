@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/media.hpp"
+#include "hypotrack/api/media.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

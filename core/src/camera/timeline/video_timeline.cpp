@@ -1,11 +1,10 @@
-#include "hypotrack/video_timeline.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "camera/timeline/pair_videos.hpp"
+#include "hypotrack/api/timeline.hpp"
 
 namespace hypotrack {
 namespace {

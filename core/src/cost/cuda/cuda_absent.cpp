@@ -2,7 +2,7 @@
 #include "cost/backends.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/page_locked_images.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::cuda::internal {
 

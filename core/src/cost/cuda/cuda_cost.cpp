@@ -15,8 +15,8 @@
 #include "cost/cuda/tile_resampler.hpp"
 #include "cost/cuda/transfer.hpp"
 #include "cost/term_residuals.hpp"
-#include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/device_cost.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

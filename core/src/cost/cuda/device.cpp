@@ -6,8 +6,8 @@
 
 #include "base/machine.hpp"
 #include "cost/cuda/device_code.hpp"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -10,7 +10,7 @@
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
 #include "cost/cuda/side_stream.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,7 +6,7 @@
 #include "base/exported.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/skeleton.hpp"
+#include "hypotrack/gpu/skeleton.hpp"
 #include "scene/mesh_topology.hpp"
 #include "scene/quantized_weights.hpp"
 

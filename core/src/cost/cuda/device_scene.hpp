@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/model.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -10,7 +10,7 @@
 #include "cost/cuda/transfer.hpp"
 #include "cost/gl/egl_drawer.hpp"
 #include "gl/egl_context.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

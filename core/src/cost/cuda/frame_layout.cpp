@@ -4,8 +4,8 @@
 
 #include "cost/cuda/tile_upload.hpp"
 #include "cost/hypothesis_drawer.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack::cuda::internal {
 

@@ -11,7 +11,7 @@
 #include "cost/cuda/device_scene.hpp"
 #include "cost/cuda/tile_drawer.hpp"
 #include "cost/cuda/tile_upload.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -10,7 +10,7 @@
 #include <array>
 
 #include "gl/egl_context.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/exported.hpp"
 #include "cost/gl/egl_layers.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 struct cudaGraphicsResource;
 

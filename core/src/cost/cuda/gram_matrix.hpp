@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 /// Normal equations in GPU memory: the Gram matrix (inner products) of D + 1 columns, which are the
 /// differences of residuals and the residuals themselves.

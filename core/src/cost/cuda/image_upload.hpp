@@ -3,7 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -3,8 +3,8 @@
 #include <array>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/layout.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/gpu/layout.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack::cuda {

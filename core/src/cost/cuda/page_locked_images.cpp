@@ -9,7 +9,7 @@
 
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/pooled_mat_allocator.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

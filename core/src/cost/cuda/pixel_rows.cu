@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "hypotrack/cuda/cull.cuh"
-#include "hypotrack/cuda/drawn.cuh"
-#include "hypotrack/cuda/pose.cuh"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/cuda/vertices.cuh"
+#include "hypotrack/gpu/cull.cuh"
+#include "hypotrack/gpu/drawn.cuh"
+#include "hypotrack/gpu/pose.cuh"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/gpu/vertices.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 /// Normal equations of pixel residuals in GPU memory. The method is that of cost/pixel_rows.hpp.
 namespace hypotrack::cuda {

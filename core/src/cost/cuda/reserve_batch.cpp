@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

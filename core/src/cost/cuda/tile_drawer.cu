@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/cuda/evaluate.cuh"
+#include "hypotrack/gpu/evaluate.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/cuda/block_memory.cuh"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/block_memory.cuh"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

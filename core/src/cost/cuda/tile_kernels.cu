@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cuda/tile_pixels.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -4,8 +4,8 @@
 
 #include "base/exported.hpp"
 #include "camera/lens_map.hpp"
-#include "hypotrack/cuda/layout.hpp"
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/gpu/layout.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "tile/color_map.hpp"
 
 /// Computes a tile's pixels one by one, in kernels and in host tests. The functions repeat the

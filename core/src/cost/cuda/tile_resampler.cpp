@@ -8,8 +8,8 @@
 #include "cost/cuda/tile_kernels.hpp"
 #include "cost/cuda/tile_upload.hpp"
 #include "cost/cuda/view_resampling.hpp"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "base/exported.hpp"
 #include "cost/cuda/load_balance.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::cuda {

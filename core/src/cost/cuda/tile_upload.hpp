@@ -4,9 +4,9 @@
 
 #include "base/exported.hpp"
 #include "cost/cuda/load_balance.hpp"
-#include "hypotrack/cuda/layout.hpp"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/gpu/layout.hpp"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -2,7 +2,7 @@
 
 #include "base/exported.hpp"
 #include "base/profile.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -11,7 +11,7 @@
 #include "cost/gl/egl_scene.hpp"
 #include "cost/raster_kernels.hpp"
 #include "gl/egl_context.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

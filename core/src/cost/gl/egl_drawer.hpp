@@ -5,8 +5,8 @@
 
 #include "base/exported.hpp"
 #include "cost/gl/egl_layers.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "scene/mesh_topology.hpp"
 
 namespace hypotrack::internal {

@@ -5,7 +5,7 @@
 
 #include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "scene/bone_poser.hpp"
 
 namespace hypotrack {

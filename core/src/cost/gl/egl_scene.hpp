@@ -8,7 +8,7 @@
 #include "cost/gl/egl_model.hpp"
 #include "cost/gl/egl_program.hpp"
 #include "gl/gl_objects.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -3,7 +3,7 @@
 #include <map>
 #include <utility>
 
-#include "hypotrack/texture_atlas.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "model/import/looks.hpp"
 #include "model/import/patches.hpp"
 #include "model/import/steps.hpp"

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "config/read_value.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "model/import/steps.hpp"
 
 namespace hypotrack {

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "model/import/ply_header.hpp"
 
 namespace hypotrack::internal {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "base/exported.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

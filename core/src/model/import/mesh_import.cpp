@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "model/import/format.hpp"
 #include "model/import/imported_meshes.hpp"
 #include "model/import/process.hpp"

@@ -11,7 +11,7 @@
 
 #include "base/subprocess.hpp"
 #include "base/system_problem.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

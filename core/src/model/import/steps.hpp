@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/mesh_io.hpp"
+#include "hypotrack/api/mesh_io.hpp"
 #include "model/import/weld.hpp"
 #include "model/import/wire.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "camera/orientation.hpp"
 #include "camera/picture_header.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/media.hpp"
 #include "model/import/steps.hpp"
 
 namespace hypotrack::internal {

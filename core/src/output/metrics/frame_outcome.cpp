@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 

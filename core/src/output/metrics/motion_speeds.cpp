@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/median.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/tables.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -11,7 +11,7 @@
 
 #include "base/numbers.hpp"
 #include "cost/cuda/device.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

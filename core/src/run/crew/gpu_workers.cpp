@@ -9,7 +9,7 @@
 #include <thread>
 #include <utility>
 
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::internal {
 namespace {

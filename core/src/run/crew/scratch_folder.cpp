@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

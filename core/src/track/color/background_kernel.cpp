@@ -2,9 +2,9 @@
 
 #define HWY_TARGET_INCLUDE "track/color/background_kernel.cpp"
 #include <cstddef>
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
-#include "hypotrack/simd-inl.hpp"
+#include "hypotrack/plugin/simd-inl.hpp"
 #include "track/color/background_row.hpp"
 
 HWY_BEFORE_NAMESPACE();

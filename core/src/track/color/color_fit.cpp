@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::internal {
 namespace {

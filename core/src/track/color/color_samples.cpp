@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "cost/hypothesis_drawer.hpp"
-#include "hypotrack/stereo_pixels.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "tile/resample.hpp"
 #include "track/color/highlights.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/color_samples.hpp"
 #include "track/color/highlights.hpp"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/background_model.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 #include "track/faults/cell_motion.hpp"
 #include "track/faults/small_picture.hpp"
 

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/frame_fault.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "track/faults/frozen_views.hpp"
 #include "track/faults/view_order.hpp"
 

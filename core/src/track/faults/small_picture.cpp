@@ -5,7 +5,7 @@
 #include <opencv2/core/hal/intrin.hpp>
 #include <utility>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/core/hal/intrin.hpp>
 
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "track/candidate_finder.hpp"
 
 namespace hypotrack {

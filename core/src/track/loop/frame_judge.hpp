@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/solution.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/loop/loop_state.hpp"
 #include "track/status.hpp"

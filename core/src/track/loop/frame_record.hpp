@@ -4,9 +4,9 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/search_record.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/frame_search.hpp"
 #include "track/search_trace.hpp"

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/loop/given_start.hpp"
 #include "track/loop/scene_tracks.hpp"

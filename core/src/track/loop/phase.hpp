@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/exported.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/solution.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

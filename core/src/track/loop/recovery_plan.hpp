@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/loop/loop_state.hpp"
 

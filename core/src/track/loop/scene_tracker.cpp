@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/profile.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/plugin_call.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/loop/setup.hpp"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/search_record.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/solution.hpp"
+#include "hypotrack/plugin/output.hpp"
 #include "track/loop/background_search.hpp"
 #include "track/loop/frame_judge.hpp"
 #include "track/loop/frame_record.hpp"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "track/loop/departure.hpp"
 #include "track/loop/model_track.hpp"
 #include "track/status.hpp"

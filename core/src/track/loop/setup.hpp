@@ -4,8 +4,8 @@
 #include <string>
 
 #include "base/exported.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/optimizer.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "tile/tiles.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/tracker_parts.hpp"

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/solution.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/api/solution.hpp"
 #include "tile/tiles.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"

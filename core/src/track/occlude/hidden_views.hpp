@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin/observation.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "tile/color_map.hpp"
 #include "track/occlude/hidden_views.hpp"
 #include "track/verify/foreground_colors.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/exported.hpp"
 #include "base/stop_scope.hpp"
-#include "hypotrack/camera.hpp"
+#include "hypotrack/api/camera.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,6 +1,6 @@
 #include "track/recover/held_models.hpp"
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "track/model_pose.hpp"
 
 namespace hypotrack {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "hypotrack/damping.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "track/search_cost.hpp"
 
 namespace hypotrack::internal {

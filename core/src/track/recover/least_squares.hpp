@@ -7,7 +7,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {

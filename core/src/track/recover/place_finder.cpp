@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "hypotrack/stop.hpp"
+#include "hypotrack/api/stop.hpp"
 
 namespace hypotrack::internal {
 /// A reduced view.

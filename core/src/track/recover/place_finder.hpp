@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
 #include "tile/color_map.hpp"
 #include "track/verify/foreground_colors.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "tile/tiles.hpp"
 #include "track/frame_search.hpp"
 #include "track/recover/held_models.hpp"

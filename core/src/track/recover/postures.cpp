@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::internal {
 namespace {

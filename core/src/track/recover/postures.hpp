@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/model.hpp"
+#include "hypotrack/plugin/model.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

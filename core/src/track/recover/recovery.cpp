@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/profile.hpp"
-#include "hypotrack/search.hpp"
+#include "hypotrack/plugin/search.hpp"
 #include "track/recover/silhouette.hpp"
 #include "track/verify/surface_points.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
-#include "hypotrack/start.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/start.hpp"
 #include "track/color/background_model.hpp"
 #include "track/frame_search.hpp"
 #include "track/motion_limits.hpp"

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "base/exported.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

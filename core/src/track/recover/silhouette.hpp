@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

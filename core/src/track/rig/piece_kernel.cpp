@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 #include <numeric>
 #include <vector>
 
-#include "hypotrack/simd-inl.hpp"
+#include "hypotrack/plugin/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {

@@ -9,7 +9,7 @@
 
 #include "base/profile.hpp"
 #include "camera/rectification.hpp"
-#include "hypotrack/back_project.hpp"
+#include "hypotrack/api/camera.hpp"
 #include "tile/resample.hpp"
 
 namespace hypotrack::internal {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/profile.hpp"
-#include "hypotrack/median.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "track/rig/piece_kernel.hpp"
 
 namespace hypotrack::internal {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

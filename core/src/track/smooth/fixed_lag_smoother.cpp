@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cost/term_residuals.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/exported.hpp"
 #include "cost/fallback_cost.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/smooth/motion_prior.hpp"
 #include "track/smooth/trajectory_fit.hpp"

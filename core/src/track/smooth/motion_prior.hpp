@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/exported.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/smooth/lag_window.hpp"
 

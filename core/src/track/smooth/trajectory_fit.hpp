@@ -6,7 +6,7 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "hypotrack/damping.hpp"
+#include "hypotrack/plugin/numbers.hpp"
 #include "track/smooth/motion_prior.hpp"
 #include "track/smooth/tile_highlights.hpp"
 

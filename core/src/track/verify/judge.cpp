@@ -1,11 +1,11 @@
-#include "hypotrack/judge.hpp"
+#include "hypotrack/plugin/judge.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "plugin/plugin_call.hpp"
 
 namespace hypotrack {

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
-#include "hypotrack/judge.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/judge.hpp"
 #include "tile/color_map.hpp"
 #include "track/model_pose.hpp"
 #include "track/verify/appearance.hpp"

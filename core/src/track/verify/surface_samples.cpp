@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "cost/hypothesis_drawer.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/stereo_pixels.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::internal {

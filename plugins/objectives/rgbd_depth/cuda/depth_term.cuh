@@ -4,7 +4,7 @@
 #include "depth_agreement-inl.hpp"
 #include "energy.hpp"
 #include "finger_pair.hpp"
-#include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/gpu/pixel_walk.cuh"
 #include "pixel_penalties.hpp"
 
 namespace hypotrack::rgbd_depth {

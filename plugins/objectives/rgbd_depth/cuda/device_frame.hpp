@@ -5,7 +5,7 @@
 
 #include "cuda/observe_job.hpp"
 #include "finger_pair.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {

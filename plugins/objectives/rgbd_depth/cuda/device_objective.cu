@@ -3,7 +3,7 @@
 #include "checks.hpp"
 #include "cuda/depth_term.cuh"
 #include "cuda/device_frame.hpp"
-#include "hypotrack/cuda/pixel_objective.cuh"
+#include "hypotrack/gpu/pixel_objective.cuh"
 #include "on_device.hpp"
 
 namespace hypotrack::rgbd_depth {

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "cuda/observe_job.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::rgbd_depth {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "foreground-inl.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::rgbd_depth {
 

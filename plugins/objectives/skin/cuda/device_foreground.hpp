@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 #include "settings.hpp"
 
 namespace hypotrack::skin {

@@ -2,7 +2,7 @@
 
 #include "cuda/device_foreground.hpp"
 #include "cuda/skin_term.cuh"
-#include "hypotrack/cuda/pixel_objective.cuh"
+#include "hypotrack/gpu/pixel_objective.cuh"
 #include "on_device.hpp"
 
 namespace hypotrack::skin {

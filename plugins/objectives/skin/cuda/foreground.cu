@@ -2,9 +2,9 @@
 
 #include "color_bins.hpp"
 #include "cuda/foreground_job.hpp"
-#include "hypotrack/cuda/block.cuh"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/unorm16.hpp"
+#include "hypotrack/gpu/block.cuh"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::skin {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "color_bins.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "rule.hpp"
 
 namespace hypotrack::skin {

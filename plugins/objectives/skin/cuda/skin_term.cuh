@@ -3,12 +3,12 @@
 #include <cstdint>
 
 #include "coverage-inl.hpp"
-#include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/gpu/pixel_walk.cuh"
 #include "uncovered_residual.hpp"
 
 namespace hypotrack::skin {
 
-/// The objective's functions per pixel and per hypothesis (hypotrack/cuda/pixel_objective.cuh).
+/// The objective's functions per pixel and per hypothesis (hypotrack/gpu/pixel_objective.cuh).
 struct SkinTerm {
   static constexpr bool kStereo = false;
   static constexpr bool kVisitsUncovered = false;

@@ -5,12 +5,12 @@
 #include "aggregation-inl.hpp"
 #include "color_consistency-inl.hpp"
 #include "cuda/feature_job.hpp"
-#include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/gpu/pixel_walk.cuh"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 
-/// The objective's sums over pixels (hypotrack/cuda/pixel_objective.cuh).
+/// The objective's sums over pixels (hypotrack/gpu/pixel_objective.cuh).
 template <bool kBilinear, bool kBoth>
 struct ColorTerm {
   static constexpr bool kStereo = true;

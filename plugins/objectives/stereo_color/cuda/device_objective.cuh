@@ -6,7 +6,7 @@
 #include "checks.hpp"
 #include "cuda/color_term.cuh"
 #include "cuda/feature_maps.hpp"
-#include "hypotrack/cuda/pixel_objective.cuh"
+#include "hypotrack/gpu/pixel_objective.cuh"
 
 namespace hypotrack::stereo_color {
 

@@ -4,7 +4,7 @@
 
 #include "color-inl.hpp"
 #include "distinctiveness-inl.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "settings.hpp"
 
 /// The three kernels that turn two tiles into features, and their intermediate data:
@@ -58,7 +58,7 @@ struct FeatureJob {
   }
 };
 
-/// Enqueues a kernel. With `overlap` it may start early (hypotrack/cuda/runtime.cuh).
+/// Enqueues a kernel. With `overlap` it may start early (hypotrack/gpu/runtime.cuh).
 void enqueue_textures(const FeatureJob& job, cuda::Stream stream, bool overlap);
 void enqueue_medians(const FeatureJob& job, cuda::Stream stream, bool overlap);
 void enqueue_features(const FeatureJob& job, cuda::Stream stream, bool overlap);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cuda/feature_job.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_color {

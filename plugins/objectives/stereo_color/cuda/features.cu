@@ -1,7 +1,7 @@
 #include "cuda/feature_job.hpp"
 #include "cuda/tile_pixel.cuh"
-#include "hypotrack/cuda/runtime.cuh"
-#include "hypotrack/unorm16.hpp"
+#include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_color {

@@ -1,6 +1,6 @@
 #include "cuda/feature_job.hpp"
-#include "hypotrack/cuda/block.cuh"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/block.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 // Radix selection of the median of many numbers. The histogram gives the bucket that holds it. Two
 // passes over digits of ten bits find it among the bucket's keys.

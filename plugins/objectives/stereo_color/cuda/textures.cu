@@ -1,6 +1,6 @@
 #include "cuda/feature_job.hpp"
 #include "cuda/tile_pixel.cuh"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::stereo_color {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "cuda/device_volume.hpp"
 #include "cuda/patch_term.cuh"
-#include "hypotrack/cuda/pixel_objective.cuh"
+#include "hypotrack/gpu/pixel_objective.cuh"
 #include "on_device.hpp"
 #include "share.hpp"
 

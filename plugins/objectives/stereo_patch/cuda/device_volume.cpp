@@ -1,8 +1,8 @@
 #include "cuda/device_volume.hpp"
 
 #include "cuda/fill_job.hpp"
-#include "hypotrack/observation_checks.hpp"
-#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 #include "planes.hpp"
 
 namespace hypotrack::stereo_patch {

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/gpu/runtime.cuh"
 #include "planes_layout.hpp"
 #include "settings.hpp"
 

@@ -1,6 +1,6 @@
 #include "cuda/fill_job.hpp"
 #include "cuda/patches.cuh"
-#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/gpu/runtime.cuh"
 #include "patch_similarity-inl.hpp"
 
 namespace hypotrack::stereo_patch {

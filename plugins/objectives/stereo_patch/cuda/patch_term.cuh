@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
-#include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/gpu/pixel_walk.cuh"
 #include "patch_similarity-inl.hpp"
 #include "planes_layout.hpp"
 
 namespace hypotrack::stereo_patch {
 
-/// The objective's sum over pixels (hypotrack/cuda/pixel_objective.cuh).
+/// The objective's sum over pixels (hypotrack/gpu/pixel_objective.cuh).
 struct PatchTerm {
   static constexpr bool kStereo = true;
   static constexpr bool kVisitsUncovered = false;

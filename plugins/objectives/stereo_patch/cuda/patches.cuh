@@ -1,9 +1,9 @@
 #pragma once
 
 #include "cuda/fill_job.hpp"
-#include "hypotrack/bgr.hpp"
-#include "hypotrack/cuda/block.cuh"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/gpu/block.cuh"
+#include "hypotrack/plugin/pixel.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 
 /// Grey values of the two views for a plane in space that is parallel to the first view's tile.
 /// Grey is in 0..1, NaN outside. Uses fused multiply-adds where the CPU's vectors have them.

@@ -13,8 +13,8 @@
 
 #include "cost/cuda/backend_text.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "run/crew/scratch_folder.hpp"
 #include "test_paths.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
 namespace {

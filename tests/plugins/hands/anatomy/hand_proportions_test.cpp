@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "hypotrack/shape.hpp"
+#include "hypotrack/plugin/shape.hpp"
 
 namespace hypotrack {
 namespace {

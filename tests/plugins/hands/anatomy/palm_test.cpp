@@ -6,10 +6,10 @@
 #include <string>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/pose.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/pose.hpp"
+#include "hypotrack/plugin/params.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "network.hpp"
 #include "test_paths.hpp"
 

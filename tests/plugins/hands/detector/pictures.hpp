@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "hand_detector.hpp"
-#include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/api/frame.hpp"
 
 /// Skips the test with a message if the hand detector's networks have not been fetched.
 #define HYPOTRACK_NEEDS_HAND_DETECTOR()                                      \

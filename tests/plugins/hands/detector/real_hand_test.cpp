@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/image_file.hpp"
+#include "hypotrack/api/image_file.hpp"
 #include "pictures.hpp"
 #include "test_paths.hpp"
 

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hand_picture.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "upright_hand.hpp"
 
 namespace hypotrack::hands {

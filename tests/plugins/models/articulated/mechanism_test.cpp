@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::articulated {
 namespace {

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/config.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "stick_hand.hpp"
 
 namespace hypotrack::articulated {

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "primitives.hpp"
 #include "scene/mesh_topology.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"

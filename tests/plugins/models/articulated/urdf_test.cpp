@@ -5,7 +5,7 @@
 
 #include "description.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::articulated {

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::contour {

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "contour.hpp"
-#include "hypotrack/observation.hpp"
-#include "hypotrack/renderer.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::contour {

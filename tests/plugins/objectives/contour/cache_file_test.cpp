@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 #include "model_contours.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"

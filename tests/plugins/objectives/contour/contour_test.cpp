@@ -8,7 +8,7 @@
 
 #include "box_pictures.hpp"
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::contour {

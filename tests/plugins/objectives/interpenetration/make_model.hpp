@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "hypotrack/model.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/model.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::interpenetration {
 

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "expect_error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "interpenetration.hpp"
 #include "make_model.hpp"
 #include "session/opened_scene.hpp"

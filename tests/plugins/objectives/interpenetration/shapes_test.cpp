@@ -6,8 +6,8 @@
 #include <map>
 
 #include "bone_shapes.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "make_model.hpp"
 
 namespace hypotrack::interpenetration {

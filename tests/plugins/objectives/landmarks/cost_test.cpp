@@ -6,7 +6,7 @@
 
 #include "expect_error.hpp"
 #include "hands_in_view.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "jacobian_contract.hpp"
 #include "test_models.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::landmarks::test {
 namespace {

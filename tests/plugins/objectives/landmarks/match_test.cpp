@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hands_in_view.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::landmarks {
 namespace {

@@ -1,8 +1,8 @@
 // With the networks of the hand detector: what they see in rendered tiles.
 #include "expect_error.hpp"
 #include "hands_in_view.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "pictures.hpp"
 #include "test_paths.hpp"
 #include "tile/tiles.hpp"

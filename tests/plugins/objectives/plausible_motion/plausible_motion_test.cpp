@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "hypotrack/observation.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/observation.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "jacobian_contract.hpp"
 #include "test_models.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::rgbd_depth {
 

@@ -1,4 +1,4 @@
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 
 #include "depth_range.hpp"
 #include "depth_scene.hpp"
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/params.hpp"
 #include "observed.hpp"
 #include "test_models.hpp"
 

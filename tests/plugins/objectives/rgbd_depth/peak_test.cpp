@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "rgbd_depth.hpp"
 #include "test_models.hpp"
 

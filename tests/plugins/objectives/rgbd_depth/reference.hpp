@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "params.hpp"
 
 // The objective once more, in double precision, over every pixel of the tiles and straight from the

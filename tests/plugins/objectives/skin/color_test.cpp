@@ -6,7 +6,7 @@
 
 #include "colored_box.hpp"
 #include "foreground.hpp"
-#include "hypotrack/unorm16.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "silhouette.hpp"
 
 namespace hypotrack::skin {

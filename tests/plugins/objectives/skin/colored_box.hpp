@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::skin {
 

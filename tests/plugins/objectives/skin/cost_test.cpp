@@ -5,7 +5,7 @@
 
 #include "colored_box.hpp"
 #include "every_target.hpp"
-#include "hypotrack/unorm16.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "score.hpp"
 #include "skin.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "random_pair.hpp"
 
 namespace hypotrack::stereo_color {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "color-inl.hpp"
-#include "hypotrack/unorm16.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 #include "lab_nodes.hpp"
 
 // The colour arithmetic that CUDA shares, against OpenCV's, which the CPU uses.

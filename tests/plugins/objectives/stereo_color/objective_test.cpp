@@ -4,8 +4,8 @@
 #include <string>
 
 #include "expect_error.hpp"
-#include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "on_device.hpp"
 #include "random_pair.hpp"
 #include "stereo_color.hpp"

@@ -1,12 +1,12 @@
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/plugin/pixel.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "color_consistency-inl.hpp"
-#include "hypotrack/stereo_pixels.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::stereo_color {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "params.hpp"
 
 // The objective once more, in double precision, one pixel at a time and straight from the

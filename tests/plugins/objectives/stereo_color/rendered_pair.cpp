@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::stereo_color {

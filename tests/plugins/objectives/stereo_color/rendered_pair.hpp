@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/objective.hpp"
 
 namespace hypotrack::stereo_color {
 

@@ -9,7 +9,7 @@
 
 #include "color_consistency-inl.hpp"
 #include "every_target.hpp"
-#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "random_pair.hpp"
 #include "stereo_color.hpp"
 #include "written_residuals.hpp"

@@ -2,9 +2,9 @@
 #include "walk_term.hpp"
 
 #define HWY_TARGET_INCLUDE "walk_term.cpp"
-#include <hypotrack/foreach_target-inl.hpp>
+#include <hypotrack/plugin/foreach_target-inl.hpp>
 
-#include "hypotrack/stereo_pixels-inl.hpp"
+#include "hypotrack/plugin/stereo_pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_color::HWY_NAMESPACE {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hypotrack/objective.hpp"
-#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/plugin/objective.hpp"
+#include "hypotrack/plugin/view_pixels.hpp"
 
 namespace hypotrack::stereo_color {
 

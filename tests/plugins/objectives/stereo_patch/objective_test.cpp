@@ -5,7 +5,7 @@
 #include <string>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "patch_pair.hpp"
 #include "stereo_patch.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hypotrack/objective.hpp"
+#include "hypotrack/plugin/objective.hpp"
 #include "planes.hpp"
 #include "settings.hpp"
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {

@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/api/error.hpp"
 #include "mjpeg_server.hpp"
 #include "oriented_pictures.hpp"
 #include "source_fixture.hpp"

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "expect_error.hpp"
-#include "hypotrack/error.hpp"
-#include "hypotrack/params.hpp"
-#include "hypotrack/plugin.hpp"
-#include "hypotrack/tables.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/api/tables.hpp"
+#include "hypotrack/plugin/params.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 

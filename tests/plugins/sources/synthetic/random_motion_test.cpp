@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "synthetic_fixture.hpp"
 
 namespace hypotrack::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/camera.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "synthetic_fixture.hpp"
 
 namespace hypotrack::test {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::test {

@@ -7,9 +7,9 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "hypotrack/kinematics.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/renderer.hpp"
+#include "hypotrack/api/media.hpp"
+#include "hypotrack/api/renderer.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "synthetic_fixture.hpp"
 #include "test_paths.hpp"
 

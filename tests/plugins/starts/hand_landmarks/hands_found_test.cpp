@@ -1,7 +1,7 @@
 // The plugin on pictures, rendered and real.
 #include <cmath>
 
-#include "hypotrack/plugin.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "pictures.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "test_paths.hpp"

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 #include "model/import/reader/dae_effects.hpp"
 #include "model/import/reader/surfaces.hpp"
 

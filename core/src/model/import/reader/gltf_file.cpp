@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {

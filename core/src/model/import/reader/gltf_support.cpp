@@ -3,7 +3,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/text.hpp"
 #include "model/import/reader/gltf_steps.hpp"
 
 namespace hypotrack::mesh_wire::internal {

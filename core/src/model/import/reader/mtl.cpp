@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "hypotrack/text.hpp"
-#include "hypotrack/text_file.hpp"
+#include "hypotrack/api/files.hpp"
+#include "hypotrack/api/text.hpp"
 #include "model/import/reader/mtl_file.hpp"
 #include "model/import/reader/surfaces.hpp"
 #include "model/import/srgb.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "hypotrack/text.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
