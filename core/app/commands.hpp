@@ -24,7 +24,7 @@ void add_set_option(const Command& command, std::vector<std::string>& set);
 // Each adds one command, which does the work and sets `exit_code`.
 void add_run_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_validate_command(const Command& root, CommonOptions& common, int& exit_code);
-void add_start_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_click_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_fit_shape_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_fit_judge_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_record_command(const Command& root, CommonOptions& common, int& exit_code);

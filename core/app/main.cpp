@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   add_run_command(root, common, exit_code);
   add_validate_command(root, common, exit_code);
-  add_start_command(root, common, exit_code);
+  add_click_command(root, common, exit_code);
   add_fit_shape_command(root, common, exit_code);
   lab().commands->add_fit_judge(root, common, exit_code);
   add_record_command(root, common, exit_code);

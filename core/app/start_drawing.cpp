@@ -14,7 +14,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// Returns the name of a scene's start, or the names of those it tries.
+/// Returns the name of a scene's starter, or the names of those it tries.
 std::string name_of(const ConfigNode& from) {
   if (from.is_map()) return from.get("type").scalar();
   if (!from.is_list()) return from.scalar();

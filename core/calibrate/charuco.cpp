@@ -152,7 +152,7 @@ BoardCorners CharucoFinder::find(const cv::Mat& gray) const {
   const MarkerSteps steps = marker_steps(markers);
   if (steps.square <= 1) return out;
   out.marker = 1 / steps.square;
-  const CornerSearch search(gray, markers, steps.square);
+  const CornerFinder search(gray, markers, steps.square);
   std::array<double, 2> shares{};  // by marker_first
   for (const bool marker_first : {false, true})
     shares[marker_first] = agreement({board.size.width, marker_first}, steps.all);

@@ -74,10 +74,10 @@ bool refine(const cv::Mat& squares, double square, cv::Point2f& corner) {
 
 }  // namespace
 
-CornerSearch::CornerSearch(const cv::Mat& gray, const Markers& markers, double square)
+CornerFinder::CornerFinder(const cv::Mat& gray, const Markers& markers, double square)
     : markers_(&markers), square_(square), squares_(without_markers(gray, markers, square)) {}
 
-PatternCorners CornerSearch::corners(const MarkerLayout& layout, int rows) const {
+PatternCorners CornerFinder::corners(const MarkerLayout& layout, int rows) const {
   constexpr double kAgree = 0.25;  // of a square
   const std::array<cv::Point2f, 4> unit = {
       {{-0.5F, -0.5F}, {0.5F, -0.5F}, {0.5F, 0.5F}, {-0.5F, 0.5F}}};

@@ -8,10 +8,10 @@
 namespace hypotrack::calibrate {
 
 /// Finds the corners between the markers of a picture.
-class CornerSearch {
+class CornerFinder {
  public:
   /// `markers` must outlive the search. `square` is the side of a square in sides of a marker.
-  CornerSearch(const cv::Mat& gray, const Markers& markers, double square);
+  CornerFinder(const cv::Mat& gray, const Markers& markers, double square);
 
   /// Returns the inner corners of a board that have both their markers in the picture, refined.
   PatternCorners corners(const MarkerLayout& layout, int rows) const;

@@ -7,7 +7,7 @@ namespace {
 
 SearchSettings rotation_vectors() {
   SearchSettings settings;
-  settings.rotation_as = RotationSearch::tangent;
+  settings.rotation_as = RotationCoordinates::tangent;
   return settings;
 }
 

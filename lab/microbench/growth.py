@@ -41,7 +41,7 @@ def per_hypothesis_us(options, particles):
 
 
 def per_jacobian_ms(options, starts):
-    few, many = (median_ms(options, f"{{type: levenberg_marquardt, starts: {starts}, iterations: {n}, "
+    few, many = (median_ms(options, f"{{type: levenberg_marquardt, restarts: {starts}, iterations: {n}, "
                                     "evaluations: 1000000, finest: 0.001, tolerance: 0}") for n in (3, 7))
     return (many - few) / 4
 

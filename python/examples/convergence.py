@@ -33,7 +33,7 @@ def trace_of(scene, optimizer, seed):
     with tempfile.TemporaryDirectory() as folder:
         hypotrack.Session(scene, set={
             "optimizer": optimizer, "budget": {"evaluations": EVALUATIONS}, "seed": seed,
-            "init.from": "truth", "init.away_mm": 15, "init.away_deg": 8, "search.second_look": 0,
+            "init.from": "truth", "init.away_mm": 15, "init.away_deg": 8, "search.second_search": 0,
             "judge": "none", "output.trace": True, "output.overlay": False,
         }).run(folder, frames=1)
         with open(Path(folder) / "trace.csv", newline="") as file:

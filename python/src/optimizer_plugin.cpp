@@ -27,7 +27,7 @@ class PythonOptimizer final : public Optimizer {
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override {
     check_search(cost, region, budget);
-    const auto call = std::make_shared<SearchCall>(cost, region, budget);
+    const auto call = std::make_shared<BudgetedCost>(cost, region, budget);
     call->evaluate(region.start);
     const auto over = [&] {
       call->end();

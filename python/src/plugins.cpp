@@ -104,11 +104,11 @@ ProgramPlugin make_plugin(const std::string& kind, const std::string& name,
   if (kind == kPluginKind<Objective>) return plugin_of(name, type, &python_objective);
   if (kind == kPluginKind<Judge>) return judge_plugin(name, type);
   if (kind == kPluginKind<Source>) return plugin_of(name, type, &python_source);
-  if (kind == kPluginKind<Start>) return plugin_of(name, type, &python_start);
+  if (kind == kPluginKind<Starter>) return plugin_of(name, type, &python_starter);
   if (kind == kPluginKind<Output>) return plugin_of(name, type, &python_output);
   throw PluginError(
       fmt::format("there are no plugins of the kind '{}' in Python; expected optimizer, objective, "
-                  "start, judge, "
+                  "starter, judge, "
                   "source or output",
                   kind));
 }
@@ -207,7 +207,8 @@ void add_plugins(py::module_& module) {
   module.def(
       "register", &register_plugin, py::arg("kind"), py::arg("name"), py::arg("cls"),
       "Makes a class the plugin `type: name` of scenes that are opened afterwards in this "
-      "process. `kind` is optimizer, objective, start, judge, source or output. The parameters of "
+      "process. `kind` is optimizer, objective, starter, judge, source or output. The parameters "
+      "of "
       "its "
       "constructor are those of the plugin. Objects get `log` and `scene` before it runs. A source "
       "gives new arrays with every frame, since frames are read ahead.");

@@ -43,7 +43,7 @@ std::unique_ptr<Objective> python_objective(std::shared_ptr<Held> object);
 std::unique_ptr<Judge> python_judge(std::shared_ptr<Held> object,
                                     const JudgeThresholds& thresholds);
 std::unique_ptr<Source> python_source(std::shared_ptr<Held> object);
-std::unique_ptr<Start> python_start(std::shared_ptr<Held> object);
+std::unique_ptr<Starter> python_starter(std::shared_ptr<Held> object);
 std::unique_ptr<Output> python_output(std::shared_ptr<Held> object);
 
 }  // namespace hypotrack::python

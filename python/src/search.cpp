@@ -6,28 +6,28 @@
 
 namespace hypotrack::python {
 
-SearchCall::SearchCall(CostFunction& cost, const SearchRegion& region, const Budget& budget)
+BudgetedCost::BudgetedCost(CostFunction& cost, const SearchRegion& region, const Budget& budget)
     : cost_(&cost), region_(region), budget_(budget), deadline_(budget.seconds) {}
 
-CostFunction& SearchCall::cost() const {
+CostFunction& BudgetedCost::cost() const {
   if (!cost_) throw Error("this search is over: its cost cannot be evaluated any more");
   return *cost_;
 }
 
-void SearchCall::end() {
+void BudgetedCost::end() {
   while (busy_.exchange(true)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   cost_ = nullptr;
   busy_ = false;
 }
 
-void SearchCall::spend(std::int64_t evaluations) const {
+void BudgetedCost::spend(std::int64_t evaluations) const {
   // The first evaluation, of the start, always takes place.
   if (evaluations > left() || (best_.result().evaluations > 0 && deadline_.passed()))
     throw BudgetSpent();
 }
 
 template <class Function>
-auto SearchCall::keeping_failure(const Function& function) {
+auto BudgetedCost::keeping_failure(const Function& function) {
   try {
     return function();
   } catch (...) {
@@ -36,7 +36,7 @@ auto SearchCall::keeping_failure(const Function& function) {
   }
 }
 
-Eigen::VectorXd SearchCall::evaluate(Eigen::MatrixXd points) {
+Eigen::VectorXd BudgetedCost::evaluate(Eigen::MatrixXd points) {
   const Busy busy(busy_, "search");
   CostFunction& from = cost();
   spend(points.cols());
@@ -50,7 +50,7 @@ Eigen::VectorXd SearchCall::evaluate(Eigen::MatrixXd points) {
   });
 }
 
-Eigen::MatrixXf SearchCall::residuals(Eigen::MatrixXd points) {
+Eigen::MatrixXf BudgetedCost::residuals(Eigen::MatrixXd points) {
   if (!has_residuals()) throw ConfigError("the scene's objective has no residuals");
   const Busy busy(busy_, "search");
   ResidualCost& from = *cost().residuals();
@@ -66,7 +66,7 @@ Eigen::MatrixXf SearchCall::residuals(Eigen::MatrixXd points) {
   });
 }
 
-NormalEquations SearchCall::linearize(const Eigen::VectorXd& point, double blur) {
+NormalEquations BudgetedCost::linearize(const Eigen::VectorXd& point, double blur) {
   if (!can_linearize()) throw ConfigError("the scene's objective has no analytic derivatives");
   const Busy busy(busy_, "search");
   ResidualCost& from = *cost().residuals();
@@ -82,7 +82,7 @@ NormalEquations SearchCall::linearize(const Eigen::VectorXd& point, double blur)
 
 namespace {
 
-py::object costs_of(SearchCall& call, const Doubles& points) {
+py::object costs_of(BudgetedCost& call, const Doubles& points) {
   const Eigen::MatrixXd columns = columns_of(points, call.dimension(), "points");
   if (!columns.allFinite()) throw Error("points: a number is not finite");
   const Eigen::VectorXd costs = without_gil([&] { return call.evaluate(columns); });
@@ -90,13 +90,13 @@ py::object costs_of(SearchCall& call, const Doubles& points) {
   return array_of(costs);
 }
 
-py::array residuals_of(SearchCall& call, const Doubles& points) {
+py::array residuals_of(BudgetedCost& call, const Doubles& points) {
   const Eigen::MatrixXd columns = columns_of(points, call.dimension(), "points");
   if (!columns.allFinite()) throw Error("points: a number is not finite");
   return rows_of<float>(without_gil([&] { return call.residuals(columns); }), points.ndim() == 1);
 }
 
-py::tuple equations_of(SearchCall& call, const Doubles& point, double blur) {
+py::tuple equations_of(BudgetedCost& call, const Doubles& point, double blur) {
   const Eigen::VectorXd at = vector_of(point, "point");
   if (at.size() != call.dimension() || !at.allFinite())
     throw Error("point: expected as many finite numbers as the search has");
@@ -146,7 +146,7 @@ void add_search(py::module_& module) {
   py::register_exception<BudgetSpent>(module, "BudgetSpent").attr("__doc__") =
       "Ends a search whose budget is spent. Optimizers let it pass.";
   add_region(module);
-  py::class_<SearchCall, std::shared_ptr<SearchCall>>(
+  py::class_<BudgetedCost, std::shared_ptr<BudgetedCost>>(
       module, "SearchCost",
       "The cost of search points, for optimizers. The start has been evaluated, and the best point "
       "evaluated is the answer of the search.")
@@ -159,14 +159,14 @@ void add_search(py::module_& module) {
            "do. Raises ConfigError if the objective has none.")
       .def("normal_equations", &equations_of, py::arg("point"), py::arg("blur") = 1.0,
            "Returns the analytic A = J^T J (D, D) and g = J^T r (D,) at a point (D,).")
-      .def_property_readonly("has_residuals", &SearchCall::has_residuals)
-      .def_property_readonly("can_linearize", &SearchCall::can_linearize)
-      .def_property_readonly("dimension", &SearchCall::dimension)
-      .def_property_readonly("evaluations_left", &SearchCall::left)
+      .def_property_readonly("has_residuals", &BudgetedCost::has_residuals)
+      .def_property_readonly("can_linearize", &BudgetedCost::can_linearize)
+      .def_property_readonly("dimension", &BudgetedCost::dimension)
+      .def_property_readonly("evaluations_left", &BudgetedCost::left)
       .def_property_readonly(
-          "best_point", [](const SearchCall& c) { return array_of(c.best().point); },
+          "best_point", [](const BudgetedCost& c) { return array_of(c.best().point); },
           "The best point so far (D,).")
-      .def_property_readonly("best_cost", [](const SearchCall& c) { return c.best().cost; });
+      .def_property_readonly("best_cost", [](const BudgetedCost& c) { return c.best().cost; });
 }
 
 }  // namespace hypotrack::python

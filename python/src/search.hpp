@@ -18,9 +18,9 @@ class BudgetSpent : public std::exception {
 
 /// The cost of a search, for an optimizer in Python. It keeps the best point, within the bounds and
 /// the budget. Python may keep the object: after the search it refuses its work.
-class SearchCall {
+class BudgetedCost {
  public:
-  SearchCall(CostFunction& cost, const SearchRegion& region, const Budget& budget);
+  BudgetedCost(CostFunction& cost, const SearchRegion& region, const Budget& budget);
 
   /// Computes the costs (N) of points (DxN), which are moved into the bounds. Throws BudgetSpent if
   /// there are more than the budget has left. The caller has no GIL.

@@ -35,7 +35,7 @@ std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 JudgeThresholds thresholds_of(Fault fault) {
   JudgeThresholds out;
   if (fault == Fault::tracks_lost_models) out.first_above = out.uncertain_above / 2;
-  if (fault == Fault::is_more_than_sure) out.surely_above = 1.5;
+  if (fault == Fault::is_more_than_sure) out.certain_above = 1.5;
   return out;
 }
 

@@ -238,20 +238,21 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& each) { return each.param.fault; });
 
 INSTANTIATE_TEST_SUITE_P(
-    Start, Contract,
+    Starter, Contract,
     ::testing::Values(
-        Case{"start", "gives_nothing", "it gives a state for a frame",
+        Case{"starter", "gives_nothing", "it gives a state for a frame",
              "it gives nothing and throws nothing"},
-        Case{"start", "too_short", "its state fits the scene", "has 26 numbers, expected 27"},
-        Case{"start", "not_a_number", "its state fits the scene", "expected a finite number"},
-        Case{"start", "beyond_the_bounds", "its state fits the scene", "is 10 rad, expected"},
-        Case{"start", "long_quaternion", "its state fits the scene", "has the length 2.0"},
-        Case{"start", "throws_a_stranger",
+        Case{"starter", "too_short", "its state fits the scene", "has 26 numbers, expected 27"},
+        Case{"starter", "not_a_number", "its state fits the scene", "expected a finite number"},
+        Case{"starter", "beyond_the_bounds", "its state fits the scene", "is 10 rad, expected"},
+        Case{"starter", "long_quaternion", "its state fits the scene", "has the length 2.0"},
+        Case{"starter", "throws_a_stranger",
              "it gives a state or an error of hypotrack for a frame without ground truth", "truth"},
-        Case{"start", "changes_with_the_frame", "without a frame it gives that state or nothing",
+        Case{"starter", "changes_with_the_frame", "without a frame it gives that state or nothing",
              "it gives another one"},
-        Case{"start", "remembers", "asked twice it gives the same", "it gives another one"},
-        Case{"start", "never_the_same", "a second object gives the same", "it gives another one"}),
+        Case{"starter", "remembers", "asked twice it gives the same", "it gives another one"},
+        Case{"starter", "never_the_same", "a second object gives the same",
+             "it gives another one"}),
     [](const auto& each) { return each.param.fault; });
 
 const std::string kAnswersRow = "it answers any measures with a number or an infinity";
@@ -271,7 +272,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"judge", "tracks_lost_models", kThresholdsRow,
              "first_above is 0.075000, below uncertain_above, 0.150000"},
         Case{"judge", "is_more_than_sure", kThresholdsRow,
-             "surely_above is 1.500000, expected 0 to 1"},
+             "certain_above is 1.500000, expected 0 to 1"},
         Case{"judge", "prefers_wrong_poses", "a right pose is likelier than one beside it",
              "the log odds of a box at its pose are -4.8"}),
     [](const auto& each) { return each.param.fault; });
@@ -312,7 +313,7 @@ TEST_P(ContractKept, WithoutAFaultEveryRowPasses) {
 INSTANTIATE_TEST_SUITE_P(All, ContractKept,
                          ::testing::Values(Case{"optimizer"}, Case{"objective"}, Case{"model"},
                                            Case{"model", "", "", "", kItself},
-                                           Case{"source", "", "", "", kFrames}, Case{"start"},
+                                           Case{"source", "", "", "", kFrames}, Case{"starter"},
                                            Case{"judge"}, Case{"output"}));
 
 Outcome run_on_device(const std::string& fault) {

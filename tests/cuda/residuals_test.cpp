@@ -89,11 +89,11 @@ TEST_F(DeviceResiduals, OfTermsOnTheCpuLeaveNoSearchOnTheGpu) {
             "Leave them out, or write `type: pso`");
 }
 
-TEST_F(DeviceResiduals, WithAChargeAreThoseOfTheCpu) {
+TEST_F(DeviceResiduals, WithACoveragePenaltyAreThoseOfTheCpu) {
   const Scene scene = test::hand_scene();
   stereo_color::Params params;
   params.falloff = stereo_color::Falloff::gaussian;
-  params.charge = 0.1;
+  params.coverage_penalty = 0.1;
   const std::vector<ObjectiveTerm> terms = {
       {1, colors(stereo_color::Direction::both, params), "stereo_color"}};
   const std::vector<ObjectiveTerm> again = {

@@ -54,12 +54,12 @@ TEST_F(StereoColorOnDevice, ScoresAsTheCpuInEveryAggregation) {
   }
 }
 
-TEST_F(StereoColorOnDevice, ScoresAsTheCpuWithEveryFalloffAndCharge) {
+TEST_F(StereoColorOnDevice, ScoresAsTheCpuWithEveryFalloffAndCoveragePenalty) {
   for (const auto falloff : {Falloff::exponential, Falloff::gaussian}) {
     for (const auto lookup : {Lookup::nearest, Lookup::bilinear}) {
       Params params;
       params.falloff = falloff;
-      params.charge = 0.1;
+      params.coverage_penalty = 0.1;
       params.lookup = lookup;
       expect_like_the_cpu_everywhere(params);
     }

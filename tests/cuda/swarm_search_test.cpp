@@ -61,7 +61,7 @@ struct Searched {
 class Searches {
  public:
   Searches(Scene scene, Observation observation, std::vector<ObjectiveTerm> terms,
-           RotationSearch rotation_as = RotationSearch::quaternion)
+           RotationCoordinates rotation_as = RotationCoordinates::quaternion)
       : scene_(std::move(scene)),
         observation_(std::move(observation)),
         space_(scene_, settings(rotation_as)),
@@ -103,7 +103,7 @@ class Searches {
   }
 
  private:
-  static SearchSettings settings(RotationSearch rotation_as) {
+  static SearchSettings settings(RotationCoordinates rotation_as) {
     SearchSettings settings;
     settings.rotation_as = rotation_as;
     return settings;
@@ -167,7 +167,7 @@ TEST_F(SwarmSearchInOneKernel, GoesItWithTermsThatHaveNoTexelsOrLookAtSingleView
 
 TEST_F(SwarmSearchInOneKernel, GoesItForSeveralModelsAndRotationVectors) {
   const Scene scene = test::hand_and_box_scene();
-  for (const auto rotation_as : {RotationSearch::quaternion, RotationSearch::tangent}) {
+  for (const auto rotation_as : {RotationCoordinates::quaternion, RotationCoordinates::tangent}) {
     Searches searches(scene, test::colored(test::rectified_pair(scene)), {{2, colors(true)}},
                       rotation_as);
     EXPECT_TRUE(searches.expect_the_same(particles(32), 17));

@@ -228,7 +228,7 @@ class Registering(unittest.TestCase):
             hypotrack.register(kind, name, cls)
 
     def test_refuses_what_no_scene_could_use(self):
-        self.refuse("optimiser", "x", Sampler, "expected optimizer, objective, start, judge")
+        self.refuse("optimiser", "x", Sampler, "expected optimizer, objective, starter, judge")
         self.refuse("optimizer", "Not-a-name", Sampler, "small letters")
         self.refuse("optimizer", "x", 3, "expected a class")
 
@@ -407,7 +407,7 @@ class Judges(Plugins):
                 return self.odds
 
         hypotrack.register("judge", "py_test", Fixed)
-        for judge, status in [({}, "tracked"), ({"tracked_above": 0.9, "surely_above": 0.9,
+        for judge, status in [({}, "tracked"), ({"tracked_above": 0.9, "certain_above": 0.9,
                                                  "first_above": 0.9, "confirmed_above": 0.9},
                                                 "uncertain"), ({"odds": -9}, "lost")]:
             scene = box.scene(judge={"type": "py_test", **judge})
@@ -421,9 +421,9 @@ class Judges(Plugins):
             self.assertRegex(self.error(box.scene(judge="py_test")), message)
 
 
-class Starts(Plugins):
+class Starters(Plugins):
     def track_from(self, **members):
-        registered("start", **members)
+        registered("starter", **members)
         return self.track(box.scene(init={"from": {"type": "py_test"}}), 1)[0]
 
     def test_give_a_state(self):
@@ -450,10 +450,10 @@ class Starts(Plugins):
         self.assertEqual(seen[0], ((240, 320, 3), [(320, 240)] * 2, "box"))
 
     def test_that_raise_or_propose_what_is_no_pose_are_named(self):
-        for find, message in [(lambda *_: 1 / 0, "(?s)start 'py_test'.*ZeroDivisionError"),
-                              (lambda *_: [np.zeros(3)], "start 'py_test'"),
-                              (lambda *_: 3, "start 'py_test'")]:
-            registered("start", find=find)
+        for find, message in [(lambda *_: 1 / 0, "(?s)starter 'py_test'.*ZeroDivisionError"),
+                              (lambda *_: [np.zeros(3)], "starter 'py_test'"),
+                              (lambda *_: 3, "starter 'py_test'")]:
+            registered("starter", find=find)
             self.assertRegex(self.error(box.scene(init={"from": {"type": "py_test"}}),
                                         hypotrack.Error), message)
 

@@ -32,7 +32,7 @@ std::span<const std::string_view> needed_plugins() {
                                                                 "output/tables",
                                                                 "source/image_sequence",
                                                                 "source/video",
-                                                                "start/global_search"};
+                                                                "starter/global_search"};
   return kPlugins;
 }
 

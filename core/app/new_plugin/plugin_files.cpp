@@ -38,7 +38,7 @@ const std::vector<Example>& examples() {
        {"euroc.cpp"},
        "\n  CONTRACT_CONFIG contract.yaml",
        ", folder: recording"},
-      {"start", "in_front", {"in_front.cpp"}, "", ", distance_mm: 500"},
+      {"starter", "in_front", {"in_front.cpp"}, "", ", distance_mm: 500"},
       {"judge", "same_colors", {"same_colors.cpp"}, "", ""},
       {"output", "trajectory", {"trajectory.cpp"}, "", ""}};
   return all;
@@ -117,7 +117,7 @@ std::string scene_text(const std::string& kind, const std::string& plugin) {
                     "}\nsource:" + (kind == "source" ? " {" + plugin + "}" : rendered) + "\n";
   out += "objective: {" + part("objective", "type: stereo_color") + "}\n";
   out += "optimizer: {" + part("optimizer", "type: pso, particles: 64, generations: 24") + "}\n";
-  if (kind == "start")
+  if (kind == "starter")
     out += "init: {from: {" + plugin + "}}\n";
   else if (kind == "source")
     out += "init: {pose: {object: {position_mm: [0, 0, 500]}}}\n";

@@ -124,7 +124,7 @@ std::string scene_text(const SceneRequest& request, const std::filesystem::path&
   if (!live && request.tracker == "real") {  // which has the hand detector, as this needs
     YamlDocument shape;
     shape.set_plain("estimate_s", "2");
-    shape.set_string("from", "starts");
+    shape.set_string("from", "starters");
     scene.set("shape", shape);
   }
   return scene.text();

@@ -60,7 +60,7 @@ void move(YamlNode& document, const FormerKey& key, std::unique_ptr<YamlNode> va
     const YamlNode::Entry* const there = document.find(kJudge);
     if (there && there->value->text == kNone) return;  // which has no thresholds
     YamlNode& judge = judge_of(document, *value);
-    return join(judge, std::string(key.key), std::move(value));
+    return join(judge, std::string(key.now.empty() ? key.key : key.now), std::move(value));
   }
   if (key.place.empty()) return join(document, std::string(key.key), std::move(value));
   auto map = make_map(*value);
@@ -83,6 +83,55 @@ void move_evidence(YamlNode& document, const YamlNode& value) {
   join(document, std::string(kJudge), std::move(none));
 }
 
+/// A key of a map of the scene (`place`), or of maps of a `type`, that has another name now.
+struct RenamedKey {
+  std::string_view place, type, key, now;
+};
+constexpr std::array<RenamedKey, 7> kRenamedKeys{
+    {{"search", "", "second_look", "second_search"},
+     {"recovery", "", "first_starts", "first_restarts"},
+     {kJudge, "", "surely_above", "certain_above"},
+     {"", "stereo_color", "charge", "coverage_penalty"},
+     {"", "multi_start", "starts", "restarts"},
+     {"", "levenberg_marquardt", "starts", "restarts"},
+     {"", "pipeline", "rescue", "fallback"}}};
+
+/// Returns the key of the root that leads directly to a node, or nothing.
+std::string_view key_of_root(const YamlNode& node) {
+  if (!node.parent || node.parent->parent || node.parent->kind != YamlNode::Kind::kMap) return {};
+  const auto it = std::ranges::find(node.parent->entries, &node,
+                                    [](const YamlNode::Entry& entry) { return entry.value.get(); });
+  return it == node.parent->entries.end() ? std::string_view() : std::string_view(it->key);
+}
+
+/// Returns the type of the plugin whose parameters a map has, stages of a pipeline included.
+std::string_view type_of(const YamlNode& map) {
+  if (const YamlNode::Entry* const type = map.find("type")) return type->value->text;
+  const YamlNode* const list = map.parent;
+  if (!list || list->kind != YamlNode::Kind::kList || !list->parent) return {};
+  const YamlNode::Entry* const stages = list->parent->find("stages");
+  return stages && stages->value.get() == list ? type_of(*list->parent) : std::string_view();
+}
+
+/// Gives the keys below a node their names of today. Adds a line for each former one to `notes`.
+void rename_keys(YamlNode& node, std::vector<std::string>& notes) {
+  std::vector<const YamlNode*> replaced;
+  for (YamlNode::Entry& entry : node.entries) {
+    rename_keys(*entry.value, notes);
+    const auto now = new_name(node, entry);
+    if (!now) continue;
+    std::string& text = now->is_of_value ? entry.value->text : entry.key;
+    notes.push_back(fmt::format("{}: `{}` is `{}` now; `hypotrack migrate FILE...` rewrites files",
+                                place_of(*entry.value), text, now->name));
+    if (const YamlNode::Entry* const there = now->is_of_value ? nullptr : node.find(now->name))
+      replaced.push_back(there->value.get());
+    text = now->name;
+  }
+  std::erase_if(node.entries, [&](const YamlNode::Entry& entry) {
+    return std::ranges::find(replaced, entry.value.get()) != replaced.end();
+  });
+}
+
 constexpr std::array<FormerKey, 15> kFormerKeys{{{"recovery", ""},
                                                  {"uncertainty", ""},
                                                  {"motion", "status"},
@@ -94,7 +143,7 @@ constexpr std::array<FormerKey, 15> kFormerKeys{{{"recovery", ""},
                                                  {"lost_sigma_mm", "status"},
                                                  {"check_pictures", "status"},
                                                  {"tracked_above", kJudge},
-                                                 {"surely_above", kJudge},
+                                                 {"surely_above", kJudge, "certain_above"},
                                                  {"first_above", kJudge},
                                                  {"confirmed_above", kJudge},
                                                  {"uncertain_above", kJudge}}};
@@ -114,10 +163,26 @@ const FormerKey* former_key(std::string_view key) {
 }
 
 std::string path_now(const FormerKey& key) {
-  return key.place.empty() ? std::string(key.key) : fmt::format("{}.{}", key.place, key.key);
+  const std::string_view name = key.now.empty() ? key.key : key.now;
+  return key.place.empty() ? std::string(name) : fmt::format("{}.{}", key.place, name);
 }
 
-std::vector<std::string> move_former_keys(YamlNode& document) {
+std::optional<NewName> new_name(const YamlNode& map, const YamlNode::Entry& entry) {
+  if (map.kind != YamlNode::Kind::kMap) return std::nullopt;
+  const std::string_view place = key_of_root(map);
+  if (place == "shape" && entry.key == kFrom && entry.value->text == "starts")
+    return NewName{"starters", true};
+  const auto* const it = std::ranges::find_if(kRenamedKeys, [&](const RenamedKey& key) {
+    if (key.key != entry.key) return false;
+    return key.place.empty() ? key.type == type_of(map) : key.place == place;
+  });
+  return it == kRenamedKeys.end() ? std::nullopt : std::optional(NewName{it->now});
+}
+
+namespace {
+
+/// Moves the former keys of `tracker`. Returns a note for the user, or nothing.
+std::vector<std::string> move_keys_of_tracker(YamlNode& document) {
   YamlNode::Entry* const tracker =
       document.kind == YamlNode::Kind::kMap ? document.find(kTracker) : nullptr;
   if (!tracker || tracker->value->kind != YamlNode::Kind::kMap) return {};
@@ -152,8 +217,19 @@ std::vector<std::string> move_former_keys(YamlNode& document) {
                       fmt::join(moved, ", "))};
 }
 
+}  // namespace
+
+std::vector<std::string> move_former_keys(YamlNode& document) {
+  std::vector<std::string> notes = move_keys_of_tracker(document);
+  rename_keys(document, notes);
+  return notes;
+}
+
 std::string path_today(std::string_view path) {
   constexpr std::string_view kBefore = "tracker.";
+  for (const RenamedKey& key : kRenamedKeys)
+    if (!key.place.empty() && path == fmt::format("{}.{}", key.place, key.key))
+      return fmt::format("{}.{}", key.place, key.now);
   if (!path.starts_with(kBefore)) return std::string(path);
   const std::string_view rest = path.substr(kBefore.size());
   const std::string_view first = rest.substr(0, rest.find('.'));

@@ -8,7 +8,8 @@
 #include "base/exported.hpp"
 #include "config/yaml.hpp"
 
-// Keys that scenes of version 0.2 have in `tracker`, which names a file since 0.3.
+// Keys that scenes of version 0.2 have in `tracker`, which names a file since 0.3, and keys that
+// have another name since.
 
 namespace hypotrack::detail {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -17,8 +18,9 @@ inline constexpr std::string_view kTracker = "tracker", kFrom = "from", kJudge =
 inline constexpr std::string_view kEvidence = "evidence", kNetwork = "network", kNone = "none";
 
 struct FormerKey {
-  std::string_view key;    ///< in `tracker`
-  std::string_view place;  ///< the map that has it now; empty: the scene itself
+  std::string_view key;       ///< in `tracker`
+  std::string_view place;     ///< the map that has it now; empty: the scene itself
+  std::string_view now = {};  ///< its name there; empty: the same
 };
 
 /// Returns a former key of `tracker`, or null. `evidence`, which has become a judge, is none.
@@ -26,6 +28,14 @@ const FormerKey* former_key(std::string_view key);
 
 /// Returns the path of a former key now: `status.patience`.
 std::string path_now(const FormerKey& key);
+
+/// Returns the name of today of an entry of a scene's map, if its key has another one since 0.2. A
+/// word may have another one, too: `value` is then true.
+struct NewName {
+  std::string_view name;
+  bool is_of_value = false;
+};
+std::optional<NewName> new_name(const YamlNode& map, const YamlNode::Entry& entry);
 
 /// Moves the values of former keys of a scene or tracker file to where they belong now. Returns a
 /// note for the user for each map that had some. Throws ConfigError on keys that have no meaning in

@@ -61,6 +61,7 @@ class Migration {
           continue;
         }
         rename(at(entry), entry.key);
+        rename_in_place(node, entry);
         if (entry.key == kTracker && has_former(*entry.value)) {
           rewrite(node, entry);
           continue;
@@ -75,13 +76,30 @@ class Migration {
     const auto is_of_paths = [](char c) {
       return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
     };
-    if (!text.starts_with(kDotted) || !std::ranges::all_of(text, is_of_paths)) return;
+    if (!std::ranges::all_of(text, is_of_paths)) return;
     if (begin < text_.size() && (text_[begin] == '"' || text_[begin] == '\'')) ++begin;
+    if (!text.starts_with(kDotted)) {
+      const std::string now = path_today(text);
+      if (now != text && text_.compare(begin, text.size(), text) == 0)
+        edits_.push_back({begin, begin + text.size(), now});
+      return;
+    }
     const std::string_view rest = text.substr(kDotted.size());
     const FormerKey* const key = former_key(rest.substr(0, rest.find('.')));
     const bool is_there = text_.compare(begin, kDotted.size(), kDotted) == 0;
     if (key && is_there)
       edits_.push_back({begin, begin + kDotted.size() + key->key.size(), path_now(*key)});
+  }
+
+  /// Gives a key or word its name of today, if it has another one.
+  void rename_in_place(const YamlNode& map, const Entry& entry) {
+    const auto now = new_name(map, entry);
+    if (!now) return;
+    const std::string& before = now->is_of_value ? entry.value->text : entry.key;
+    std::size_t begin = now->is_of_value ? at(*entry.value) : at(entry);
+    if (begin < text_.size() && (text_[begin] == '"' || text_[begin] == '\'')) ++begin;
+    if (text_.compare(begin, before.size(), before) == 0)
+      edits_.push_back({begin, begin + before.size(), std::string(now->name)});
   }
 
   static bool has_former(const YamlNode& map) {
@@ -249,6 +267,7 @@ std::string sorted_text(YamlNode& node) {
 
 std::string migrate(const std::string& text, const std::string& name) {
   std::string out = Migration(text, name).apply();
+  out = Migration(out, name).apply();  // keys that have moved may have another name there
   if (out == text) return out;
   if (text.find("\r\n") != std::string::npos) out = with_windows_lines(out);
   auto origin = std::make_shared<YamlOrigin>();

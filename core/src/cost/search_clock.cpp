@@ -26,9 +26,8 @@ double seconds_of(SearchClock clock) {
 
 namespace hypotrack::internal {
 
-SearchClockScope::SearchClockScope(SearchClock clock)
-    : before_(std::exchange(clock_of_thread, clock)) {}
+ClockScope::ClockScope(SearchClock clock) : before_(std::exchange(clock_of_thread, clock)) {}
 
-SearchClockScope::~SearchClockScope() { clock_of_thread = before_; }
+ClockScope::~ClockScope() { clock_of_thread = before_; }
 
 }  // namespace hypotrack::internal

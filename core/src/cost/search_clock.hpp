@@ -7,12 +7,12 @@ namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Makes a clock that of the searches on this thread, while it lives.
-class SearchClockScope {
+class ClockScope {
  public:
-  explicit SearchClockScope(SearchClock clock);
-  ~SearchClockScope();
-  SearchClockScope(const SearchClockScope&) = delete;
-  SearchClockScope& operator=(const SearchClockScope&) = delete;
+  explicit ClockScope(SearchClock clock);
+  ~ClockScope();
+  ClockScope(const ClockScope&) = delete;
+  ClockScope& operator=(const ClockScope&) = delete;
 
  private:
   SearchClock before_;

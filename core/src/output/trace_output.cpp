@@ -20,7 +20,7 @@ void TraceOutput::add(int frame, const FrameTrace& trace) {
   costs_[frame] = {trace.cost, trace.truth_cost};
   std::string lines;
   for (std::size_t i = 0; i < trace.searches.size(); ++i) {
-    const TracedSearch& search = trace.searches[i];
+    const OptimizerTrace& search = trace.searches[i];
     const std::string truth = known(search.truth_cost);
     for (const TraceStep& step : search.steps)
       lines += fmt::format("{},{},{},{},{},{},{:.6f},{:.6f}\n", frame, i, search.dimension,

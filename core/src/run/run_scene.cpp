@@ -93,9 +93,9 @@ EstimatedScene open_for_run(const SceneInput& scene, std::span<const std::string
   for (const ShapeParameter& p : opened.estimate.wanted)
     shape += fmt::format(", {} {:.3f}", p.name, p.value);
   watcher.say(fmt::format("shape from {} frames{}", opened.estimate.used_frames, shape));
-  if (shapes.from == ShapeFrom::starts && opened.estimate.used_frames == 0)
+  if (shapes.from == ShapeFrom::starters && opened.estimate.used_frames == 0)
     watcher.say(
-        fmt::format("warning: no start saw the models well in the first {:g} s; their sizes are "
+        fmt::format("warning: no starter saw the models well in the first {:g} s; their sizes are "
                     "those given. Raise shape.estimate_s, or give the scale",
                     shapes.seconds));
   for (const std::string& warning : warnings_of_bounds(opened.estimate))

@@ -66,7 +66,7 @@ void expect_clicked_frame(const ClickedFrame& clicked, const Frame& frame,
   throw DataError(fmt::format(
       "{}: the landmarks were clicked {}, whose pictures are not those of frame {}, where this run "
       "begins; expected the same pictures. Let the source begin there (`start`), click anew with "
-      "`hypotrack start`, or remove `pictures` from the file",
+      "`hypotrack click`, or remove `pictures` from the file",
       where, of, frame.index));
 }
 

@@ -9,7 +9,7 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/pose.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
-#include "hypotrack/plugin/start.hpp"
+#include "hypotrack/plugin/starter.hpp"
 #include "session/opened_scene.hpp"
 #include "track/displace.hpp"
 
@@ -58,15 +58,15 @@ std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Fra
   // A tracker may have taken the parts already.
   const std::vector<Camera>& cameras =
       session.source ? session.source->cameras() : session.parts.cameras;
-  if (!session.start) return state_in_view(scene, cameras);
+  if (!session.starter) return state_in_view(scene, cameras);
   std::optional<Eigen::VectorXd> state =
-      session.start->state({.scene = scene, .cameras = cameras, .frame = frame, .notes = notes});
+      session.starter->state({.scene = scene, .cameras = cameras, .frame = frame, .notes = notes});
   const InitSettings& init = session.init;
   const std::string who = fmt::format(
-      "the start '{}'", init.from.is_map() ? init.from.get("type").scalar() : init.from.scalar());
+      "the starter '{}'", init.from.is_map() ? init.from.get("type").scalar() : init.from.scalar());
   if (!state && frame)
-    throw ConfigError(fmt::format("{} gives no state for frame {}; this is a bug in the start", who,
-                                  frame->index));
+    throw ConfigError(fmt::format("{} gives no state for frame {}; this is a bug in the starter",
+                                  who, frame->index));
   if (!state) return state;
   scene.check(*state, who);
   if (init.pose.defined()) state = read_pose(init.pose, scene, *std::move(state), cameras);

@@ -45,9 +45,9 @@ class Opening {
   void images();
   void optimizer();
   void judge();
-  void start();
-  std::vector<std::unique_ptr<Start>> starts(const ConfigNode& from,
-                                             std::vector<YamlDocument>& records);
+  void starter();
+  std::vector<std::unique_ptr<Starter>> starters(const ConfigNode& from,
+                                                 std::vector<YamlDocument>& records);
   void outputs();
   OpenedScene finish();
 
@@ -98,7 +98,7 @@ void Opening::tracker() {
   objective();
   optimizer();
   judge();
-  start();
+  starter();
 }
 
 void Opening::models() {
@@ -214,35 +214,35 @@ void Opening::judge() {
   record_.set("judge", record);
 }
 
-std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
-                                                    std::vector<YamlDocument>& records) {
-  const std::vector<ConfigNode> nodes = start_nodes(from, root_.get("init"));
-  std::vector<std::unique_ptr<Start>> all;
+std::vector<std::unique_ptr<Starter>> Opening::starters(const ConfigNode& from,
+                                                        std::vector<YamlDocument>& records) {
+  const std::vector<ConfigNode> nodes = starter_nodes(from, root_.get("init"));
+  std::vector<std::unique_ptr<Starter>> all;
   std::string unusable;  // messages
   for (const ConfigNode& node : nodes) {
     YamlDocument record;
     try {
-      all.push_back(make<Start>(node, record));
+      all.push_back(make<Starter>(node, record));
     } catch (const DataError& e) {
       if (from.scalar() != kStartAuto) throw;
-      session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
+      session_.notes.push_back(fmt::format("{} goes without the starter {}: {}", kStartAuto,
                                            text_of(node, "type", ""), e.what()));
       unusable += (unusable.empty() ? "" : "; ") + std::string(e.what());
       continue;
     }
     if (nodes.size() > 1 && !all.back()->looks())
       detail::fail_at(node, fmt::format("'{}' gives a state and does not look for the models; "
-                                        "expected it alone, or a list of starts that look",
+                                        "expected it alone, or a list of starters that look",
                                         text_of(node, "type", "")));
     records.push_back(std::move(record));
   }
-  if (all.empty()) detail::fail_at(from, "none of its starts can be used: " + unusable);
+  if (all.empty()) detail::fail_at(from, "none of its starters can be used: " + unusable);
   return all;
 }
 
-void Opening::start() {
+void Opening::starter() {
   std::vector<YamlDocument> records;
-  std::vector<std::unique_ptr<Start>> all = starts(file_.init.from, records);
+  std::vector<std::unique_ptr<Starter>> all = starters(file_.init.from, records);
   TrackerParts& parts = session_.parts;
   parts.begins_by_looking = all.front()->looks();
   const InitSettings& init = file_.init;
@@ -253,9 +253,9 @@ void Opening::start() {
         "init.pose and init.away_* change a start that is given, and init.from looks for "
         "the models; leave one of them out");
   if (parts.begins_by_looking)
-    parts.starts = std::move(all);
+    parts.starters = std::move(all);
   else
-    session_.start = std::move(all.front());
+    session_.starter = std::move(all.front());
   const std::string& word = file_.init.from.scalar();  // empty if it is a map or a list
   // The record has a word already, and the parameters of `file` and `clicks` beside it.
   const bool has_word =
@@ -274,11 +274,11 @@ void Opening::start() {
   if (is_same && parts.begins_by_looking) return;
   if (!from.defined()) from = ConfigNode::parse("global_search", "the default of recovery.from");
   std::vector<YamlDocument> of_recovery;
-  parts.starts = starts(from, of_recovery);
-  for (const std::unique_ptr<Start>& start : parts.starts)
-    if (!start->looks())
+  parts.starters = starters(from, of_recovery);
+  for (const std::unique_ptr<Starter>& one : parts.starters)
+    if (!one->looks())
       detail::fail_at(from,
-                      "gives a state and does not look for lost models; expected starts "
+                      "gives a state and does not look for lost models; expected starters "
                       "such as global_search");
 }
 

@@ -15,7 +15,7 @@
 #include "hypotrack/plugin/output.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 #include "hypotrack/plugin/source.hpp"
-#include "hypotrack/plugin/start.hpp"
+#include "hypotrack/plugin/starter.hpp"
 #include "session/scene_file.hpp"
 #include "track/loop/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
@@ -34,7 +34,7 @@ struct OpenedScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Source> source;
   TrackerParts parts;
-  std::unique_ptr<Start> start;  ///< null: `parts.starts` look for the models
+  std::unique_ptr<Starter> starter;  ///< null: `parts.starters` look for the models
   InitSettings init;
   OutputSettings output;
   std::vector<NamedTermTimes> term_times;  ///< how long each term has worked so far
@@ -47,7 +47,7 @@ struct OpenedScene {
   std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
 };
 
-/// Opens a scene: models first, then the objective, the optimizer, the judge, the start and the
+/// Opens a scene: models first, then the objective, the optimizer, the judge, the starter and the
 /// source. Throws the error of the part that fails.
 OpenedScene open_scene(const SceneInput& scene, std::span<const std::string> overrides,
                        PluginLoader& plugins);
@@ -72,11 +72,11 @@ OpenedScene open_scene(const SceneInput& scene, std::span<const std::string> ove
 /// does not ask for it. Throws ConfigError.
 std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session);
 
-/// Returns the state from which the search of a frame starts: that of the scene's start, changed as
-/// `init` says. Where starts look for the models, it is any state in view. Returns nothing if there
-/// is no frame (null) and the start needs one. `notes`, if given, receives what the start has to
-/// say. Throws ConfigError or DataError, for example if the scene asks for a ground truth that does
-/// not exist.
+/// Returns the state from which the search of a frame starts: that of the scene's starter, changed
+/// as `init` says. Where starters look for the models, it is any state in view. Returns nothing if
+/// there is no frame (null) and the starter needs one. `notes`, if given, receives what the starter
+/// has to say. Throws ConfigError or DataError, for example if the scene asks for a ground truth
+/// that does not exist.
 std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame,
                                            std::vector<std::string>* notes = nullptr);
 

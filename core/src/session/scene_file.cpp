@@ -26,14 +26,14 @@ void refuse_old_keys(const ConfigNode& root) {
       root.where_key(kOld), kOld));
 }
 
-/// Returns whether a word names a start that takes its file from `init.file`.
+/// Returns whether a word names a starter that takes its file from `init.file`.
 bool takes_file(const ConfigNode& from) {
   return from.scalar() == kStartFromFile || from.scalar() == kStartFromClicks;
 }
 
 }  // namespace
 
-std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written) {
+std::vector<ConfigNode> starter_nodes(const ConfigNode& from, const ConfigNode& written) {
   std::vector<ConfigNode> all;
   const auto add = [&](const ConfigNode& node) {
     if (node.is_map()) return all.push_back(node);
@@ -46,14 +46,14 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
   if (from.is_list()) {
     for (std::size_t i = 0; i < from.size(); ++i) add(from.at(i));
   } else if (from.scalar() == kStartAuto) {
-    const ConfigNode list = ConfigNode::load(data_file("configs/starts/auto.yaml"));
+    const ConfigNode list = ConfigNode::load(data_file("configs/starters/auto.yaml"));
     if (!list.is_list() || list.size() == 0)
-      detail::fail_at(list, "expected a list of starts that look, as `- global_search`");
+      detail::fail_at(list, "expected a list of starters that look, as `- global_search`");
     for (std::size_t i = 0; i < list.size(); ++i) add(list.at(i));
   } else {
     add(from);
   }
-  if (all.empty()) detail::fail_at(from, "an empty list; expected the starts to try");
+  if (all.empty()) detail::fail_at(from, "an empty list; expected the starters to try");
   return all;
 }
 

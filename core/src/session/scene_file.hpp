@@ -24,13 +24,13 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// The start that takes its parameters from `init.file` and `init.frame`.
+/// The starter that takes its parameters from `init.file` and `init.frame`.
 inline constexpr std::string_view kStartFromFile = "file";
 
-/// The start that takes its file from `init.file`.
+/// The starter that takes its file from `init.file`.
 inline constexpr std::string_view kStartFromClicks = "clicks";
 
-/// The word in `init.from` for the starts of configs/starts/auto.yaml that can be used.
+/// The word in `init.from` for the starters of configs/starters/auto.yaml that can be used.
 inline constexpr std::string_view kStartAuto = "auto";
 
 /// `init:` of a scene.
@@ -44,9 +44,10 @@ struct InitSettings {
   double away_angles = 0;  ///< rad
   void visit(ParamVisitor& v) {
     v("from", from,
-      {.help = "start of the first search: the name of a start (rest, truth, file, clicks, "
-               "global_search or another) or {type, ...}; a list of starts that look for the "
-               "models, tried in this order; or auto: those of configs/starts/auto.yaml that can"});
+      {.help =
+           "start of the first search: the name of a starter (rest, truth, file, clicks, "
+           "global_search or another) or {type, ...}; a list of starters that look for the "
+           "models, tried in this order; or auto: those of configs/starters/auto.yaml that can"});
     v("file", file,
       {.help = "for from: file: a pose (YAML, written like init.pose) or a state table (CSV, a "
                "track.csv for example); for from: clicks: landmarks marked in both views (YAML)"});
@@ -78,9 +79,9 @@ struct InitSettings {
   }
 };
 
-/// Returns the maps, each with a `type`, that starts are made from: `from` (of `init` or of
+/// Returns the maps, each with a `type`, that starters are made from: `from` (of `init` or of
 /// `recovery`), or what its words stand for. `written` is the scene's `init`.
-std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written);
+std::vector<ConfigNode> starter_nodes(const ConfigNode& from, const ConfigNode& written);
 
 /// The judge of scenes that name none, and the word for none.
 inline constexpr std::string_view kUsualJudge = "network";

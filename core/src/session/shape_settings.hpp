@@ -14,11 +14,11 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What shapes are estimated from.
 enum class ShapeFrom {
-  images,  ///< all shape parameters, by tracking and fitting in turn
-  starts   ///< the scale, as starts that look for the models see it
+  images,   ///< all shape parameters, by tracking and fitting in turn
+  starters  ///< the scale, as starters that look for the models see it
 };
 inline std::span<const std::string_view> enum_names(ShapeFrom) {
-  static constexpr std::array<std::string_view, 2> kNames = {"images", "starts"};
+  static constexpr std::array<std::string_view, 2> kNames = {"images", "starters"};
   return kNames;
 }
 
@@ -41,8 +41,8 @@ struct ShapeEstimateSettings {
        .max = 60,
        .unit = "s"});
     v("from", from,
-      {.help = "images: fits all parameters while tracking; starts: takes the scale "
-               "that starts in init.from see, if they recognise the models"});
+      {.help = "images: fits all parameters while tracking; starters: takes the scale "
+               "that starters in init.from see, if they detect the models"});
     v("models", models, {.help = "models of one shape; default: all that have shape parameters"});
     v("parameters", parameters, {.help = "parameters to estimate; default: all shape parameters"});
     v("frames", frames, {.help = "frames that are fitted together", .min = 2, .max = 1000});

@@ -20,13 +20,13 @@ void Coverage::do_prepare(const Observation& observation) {
 }
 
 double Coverage::do_cost(const RenderedHypothesis& hypothesis) const {
-  return charge_ * static_cast<double>(covered_pixels(hypothesis.views.front()));
+  return penalty_ * static_cast<double>(covered_pixels(hypothesis.views.front()));
 }
 
 void Coverage::do_write_residuals(const RenderedHypothesis& hypothesis,
                                   std::span<float> residuals) const {
   std::fill(residuals.begin(), residuals.end(), 0.0f);
-  const auto value = static_cast<float>(std::sqrt(charge_));
+  const auto value = static_cast<float>(std::sqrt(penalty_));
   const DepthTile& tile = hypothesis.views.front();
   for (int y = tile.y0; y < tile.y1; ++y) {
     const float* row = tile.inverse_depth + static_cast<std::ptrdiff_t>(y) * tile.stride;

@@ -9,14 +9,14 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Charges a constant cost for every covered pixel of the first view. A sum over pixels rewards
-/// covering more of them, so a free size grows without limit. With a charge, covering a pixel pays
+/// Adds a constant cost for every covered pixel of the first view. A sum over pixels rewards
+/// covering more of them, so a free size grows without limit. With a penalty, covering a pixel pays
 /// only if it explains more than that.
 class Coverage final : public Objective, public ResidualTerm {
  public:
-  /// Sets the charge of every covered pixel, >= 0.
-  void set_charge(double charge) { charge_ = charge; }
-  double charge() const { return charge_; }
+  /// Sets the penalty of every covered pixel, >= 0.
+  void set_penalty(double penalty) { penalty_ = penalty; }
+  double penalty() const { return penalty_; }
 
  private:
   void do_prepare(const Observation& observation) override;
@@ -26,7 +26,7 @@ class Coverage final : public Objective, public ResidualTerm {
   void do_write_residuals(const RenderedHypothesis& hypothesis,
                           std::span<float> residuals) const override;
 
-  double charge_ = 0;
+  double penalty_ = 0;
   std::int64_t count_ = 0;
 };
 

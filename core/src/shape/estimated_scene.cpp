@@ -57,8 +57,8 @@ EstimatedScene open_estimated(const SceneInput& scene, std::span<const std::stri
     all.insert(all.end(), found.begin(), found.end());
     return open_scene(scene, all, plugins, std::move(source), first.source_resolved);
   };
-  if (first.shape.from == ShapeFrom::starts)
-    opened.estimate = size_by_starts(
+  if (first.shape.from == ShapeFrom::starters)
+    opened.estimate = size_by_starters(
         open({}, std::make_unique<ReplaySource>(*first.source, frames)), first.shape);
   else
     opened.estimate = estimate_shape(

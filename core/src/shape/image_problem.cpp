@@ -17,7 +17,7 @@ SearchSettings steps_of(double length) {
   return {.position = length * 1e-3,
           .rotation = length * 0.75 * kDegree,
           .angle = length * 1.5 * kDegree,
-          .rotation_as = RotationSearch::tangent,
+          .rotation_as = RotationCoordinates::tangent,
           .prediction = {}};
 }
 constexpr double kShapeStep = 0.2;  // deviations
@@ -84,7 +84,7 @@ ImageProblem::Built ImageProblem::built(const VectorXd& shape) const {
 }
 
 void ImageProblem::prepare(Cost& cost, std::size_t frame) {
-  coverage_->set_charge(parts_.coverage * std::max(explained_[frame], 0.0));
+  coverage_->set_penalty(parts_.coverage * std::max(explained_[frame], 0.0));
   cost.prepare(observations_[frame]);
 }
 
@@ -104,18 +104,18 @@ double ImageProblem::pixel_width() const {
 void ImageProblem::measure_explained() {
   const JointTrial trial = start();
   const Built b = built(trial.shape);
-  explained_.assign(frames_.size(), 0);  // no charge while it is measured
+  explained_.assign(frames_.size(), 0);  // no penalty while it is measured
   const double coverage = std::exchange(parts_.coverage, 1);
   std::vector<double> explained;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     MatrixXd states(scene_.dimension(), 2);
     states << trial.poses[k], out_of_sight(scene_, trial.poses[k]);
-    VectorXd free(2), charged(2);
+    VectorXd free(2), penalized(2);
     prepare(*b.cost, k);
     b.cost->evaluate(states, free);
-    coverage_->set_charge(1);
-    b.cost->evaluate(states, charged);
-    const double pixels = charged[0] - free[0];
+    coverage_->set_penalty(1);
+    b.cost->evaluate(states, penalized);
+    const double pixels = penalized[0] - free[0];
     const double value = pixels > 0 ? (free[1] - free[0]) / pixels : 0;
     explained.push_back(std::isfinite(value) ? value : 0);
   }

@@ -36,10 +36,10 @@ struct ImageProblemParts {
 /// The objective of a scene over several frames as a function of shape and poses. Derivatives are
 /// numerical: central differences of costs for gradients, of residuals for Gauss-Newton Hessians.
 ///
-/// It adds a charge on covered pixels (Coverage): `coverage` times what a covered pixel explains on
-/// average where the frame's fit begins. This is the cost with the scene out of view minus that of
-/// the start, per pixel. A boundary then lies where one more covered pixel explains that share of
-/// the mean. With 0.5 this is also where S / sqrt(N) is stationary, for a sum S over N pixels.
+/// It adds a penalty on covered pixels (Coverage): `coverage` times what a covered pixel explains
+/// on average where the frame's fit begins. This is the cost with the scene out of view minus that
+/// of the start, per pixel. A boundary then lies where one more covered pixel explains that share
+/// of the mean. With 0.5 this is also where S / sqrt(N) is stationary, for a sum S over N pixels.
 ///
 /// Pixels at the edge of a surface mix it with the background. The views agree on such pixels only
 /// if the background's part is small, so the best silhouette lies a little inside the true one.

@@ -16,7 +16,7 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-const SearchSettings kTangent = {.rotation_as = RotationSearch::tangent, .prediction = {}};
+const SearchSettings kTangent = {.rotation_as = RotationCoordinates::tangent, .prediction = {}};
 constexpr double kStep = 1e-6;
 
 /// Returns the range of a model's landmarks among the scene's: the first and the count.

@@ -70,11 +70,11 @@ std::vector<std::string> warnings_of_bounds(const ShapeEstimate& estimate);
 /// Returns the text of a `shape_file` with the shape, and its origin and warnings in comments.
 std::string shape_file_text(const ShapeEstimate& estimate);
 
-/// Estimates how large the models are, from what the scene's starts see in up to twice
+/// Estimates how large the models are, from what the scene's starters see in up to twice
 /// `settings.frames` frames of its source: the most probable size for the median of their sizes.
 /// Keeps the size given, and uses no frame, if they see the models well in fewer than 3. Throws
-/// ConfigError if no start recognises a model or `settings.parameters` lacks `scale`.
-ShapeEstimate size_by_starts(OpenedScene session, const ShapeEstimateSettings& settings);
+/// ConfigError if no starter detects a model or `settings.parameters` lacks `scale`.
+ShapeEstimate size_by_starters(OpenedScene session, const ShapeEstimateSettings& settings);
 
 }  // namespace internal
 }  // namespace hypotrack

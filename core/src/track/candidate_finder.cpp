@@ -50,7 +50,7 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
     : scene_(scene),
       cameras_(parts.cameras),
       settings_(settings),
-      starts_(std::move(parts.starts)),
+      starters_(std::move(parts.starters)),
       budget_(parts.budget),
       search_(scene, parts),
       verifier_(scene, parts.cameras, parts.judge),
@@ -362,8 +362,8 @@ std::size_t CandidateFinder::best_option(const std::vector<std::optional<Candida
   return best;
 }
 
-bool CandidateFinder::recognizes(std::size_t model) const {
-  return std::ranges::any_of(starts_, [&](const auto& start) { return start->recognizes(model); });
+bool CandidateFinder::detects(std::size_t model) const {
+  return std::ranges::any_of(starters_, [&](const auto& one) { return one->detects(model); });
 }
 
 double CandidateFinder::distance(std::size_t model, const Eigen::VectorXd& a,
@@ -376,7 +376,7 @@ std::optional<double> CandidateFinder::seen_from(const Frame& frame, std::size_t
                                                  const Eigen::VectorXd& state) const {
   if (settings_.recovery.check == 0) return std::nullopt;
   const Scene::Item& item = scene_.items()[model];
-  return sighting(starts_, scene_, cameras_, frame, model)
+  return sighting(starters_, scene_, cameras_, frame, model)
       .distance(*item.model, scene_.part(item, state));
 }
 
@@ -388,7 +388,7 @@ void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request
     look_for_occluders(frame, request.kept, ModelFlags(scene_.items().size(), true));
   if (scene_.items().size() > 1 && !request.near_only)
     for (std::size_t m = 0; m < scene_.items().size(); ++m)
-      sightings_.push_back(sighting(starts_, scene_, cameras_, frame, m));
+      sightings_.push_back(sighting(starters_, scene_, cameras_, frame, m));
   Candidate base = best;
   for (std::size_t m = 0; m < request.sought.size(); ++m)
     if (request.sought[m]) {
@@ -441,7 +441,7 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
   // Do not learn from doubtful models: the tracker would follow a model that slides off.
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)
-    if (verifier_.experienced(m) && best.probabilities[m] < settings_.thresholds.surely_above)
+    if (verifier_.experienced(m) && best.probabilities[m] < settings_.thresholds.certain_above)
       sure[m] = false;
   if (any(sure) && !occlusion_.hidden()) learn(frame, best, sure);
 }

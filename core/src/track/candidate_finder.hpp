@@ -32,7 +32,7 @@ inline bool any(const ModelFlags& flags) {
 /// Least probability of a candidate that is worth searches around it.
 inline constexpr double kLeastPromising = 0.02;
 
-/// Time, in seconds, for which a pose stays recognised after a detector last saw the model: a model
+/// Time, in seconds, for which a pose stays detected after a detector last saw the model: a model
 /// may be hard to see from some sides.
 inline constexpr double kRemembered = 0.5;
 
@@ -58,10 +58,10 @@ struct Candidate {
   /// Returns whether it is so probable that no other pose has to be searched.
   bool is_sure() const { return probability() >= 0.95; }
   /// Returns whether a detector has seen the model there lately.
-  bool is_recognized(std::size_t model) const { return unseen[model] <= kRemembered; }
-  /// Returns whether a model's pose is worth following: likely enough, or recognised.
+  bool is_detected(std::size_t model) const { return unseen[model] <= kRemembered; }
+  /// Returns whether a model's pose is worth following: likely enough, or detected.
   bool may_be_right(std::size_t model, double probability) const {
-    return probabilities[model] >= probability || is_recognized(model);
+    return probabilities[model] >= probability || is_detected(model);
   }
 };
 
@@ -110,11 +110,11 @@ class CandidateFinder {
   Candidate go_on(const Frame& frame, const Candidate& from, std::uint64_t seed);
 
   /// Records the final candidate of a frame. Learns from those tracked models that are surely right
-  /// (JudgeThresholds::surely_above).
+  /// (JudgeThresholds::certain_above).
   void accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
 
-  /// Returns whether a detector of a model is among the starts.
-  bool recognizes(std::size_t model) const;
+  /// Returns whether a detector of a model is among the starters.
+  bool detects(std::size_t model) const;
   /// Returns the distance between a model in two states: metres, mean over its landmarks.
   double distance(std::size_t model, const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
   /// Returns the distance of a model from the place where detectors see it (Sighting::distance());
@@ -158,7 +158,7 @@ class CandidateFinder {
   std::optional<Candidate> with_model(const Frame& frame, const RecoveryRequest& request,
                                       const Candidate& base, Candidate& best, std::size_t model,
                                       const ModelFlags& held, std::uint64_t seed);
-  /// Returns whether starts see another model where a state has this one, and not this one.
+  /// Returns whether starters see another model where a state has this one, and not this one.
   bool is_of_another(std::size_t model, const Eigen::VectorXd& state) const;
   /// Returns whether two models of candidates are at the same place.
   bool is_same_place(const Candidate& a, std::size_t of_a, const Candidate& b,
@@ -188,7 +188,7 @@ class CandidateFinder {
   const Scene& scene_;
   std::vector<Camera> cameras_;
   StatusSettings settings_;
-  std::vector<std::unique_ptr<Start>> starts_;
+  std::vector<std::unique_ptr<Starter>> starters_;
   Budget budget_;
   FrameSearch search_;
   PoseVerifier verifier_;

@@ -166,7 +166,7 @@ OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& regi
   const ProfiledPart part("search");
   const std::string who = detail::label_or(*optimizer_, "the optimizer");
   const detail::RunningPlugin running(who.c_str());
-  const SearchClockScope clock(clock_);
+  const ClockScope clock(clock_);
   OptimizerResult answer;
   try {
     answer = optimizer_->minimize(cost, region, budget, seed);
@@ -183,10 +183,10 @@ Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
   const Eigen::VectorXd posed = drawn(refined(prior));
   RecordedSearch* record = record_ ? &record_->emplace_back() : nullptr;
-  TracedSearch* traced =
-      trace_ ? &trace_->searches.emplace_back(TracedSearch{.dimension = space_.dimension()})
+  OptimizerTrace* traced =
+      trace_ ? &trace_->searches.emplace_back(OptimizerTrace{.dimension = space_.dimension()})
              : nullptr;
-  std::optional<SearchTracer> tracer;
+  std::optional<OptimizerTracer> tracer;
   if (traced) tracer.emplace(*traced);
   SearchCost cost(*cost_, space_, posed, record, tracer ? &*tracer : nullptr);
   SearchRegion region = space_.region(posed, reach);
@@ -218,7 +218,7 @@ Found FrameSearch::settled(const Eigen::VectorXd& start, const Budget& budget, s
   Found found{start, std::numeric_limits<double>::infinity(), 0};
   Budget one = budget;
   for (int k = 0; k < kMost; ++k) {
-    // A later search needs its rescue only where it gets worse.
+    // A later search needs its fallback stage only where it gets worse.
     if (k > 0) one.usual_cost = found.cost;
     Found next =
         from(found.state, one, std::nullopt, seed_of_part(seed, static_cast<std::uint32_t>(k)));
@@ -233,7 +233,7 @@ Found FrameSearch::settled(const Eigen::VectorXd& start, const Budget& budget, s
 Found FrameSearch::from_guess(const Frame& frame, const Eigen::VectorXd& start,
                               const Budget& budget, std::uint64_t seed) {
   look(frame, start, true);
-  const double kept = settings_.second_look;
+  const double kept = settings_.second_search;
   Budget first = budget, second = budget;
   first.evaluations -= static_cast<std::int64_t>(kept * static_cast<double>(budget.evaluations));
   first.seconds *= 1 - kept;

@@ -18,8 +18,8 @@
 #include "track/color/photometric.hpp"
 #include "track/color/still_background.hpp"
 #include "track/occlude/hidden_views.hpp"
+#include "track/optimizer_trace.hpp"
 #include "track/search_space.hpp"
-#include "track/search_trace.hpp"
 #include "track/tracker_parts.hpp"
 
 namespace hypotrack {
@@ -87,7 +87,7 @@ class FrameSearch {
   Found settled(const Eigen::VectorXd& start, const Budget& budget, std::uint64_t seed);
 
   /// Searches from a guess, relearns the colours at the result, and searches again with the share
-  /// `search.second_look` of the budget.
+  /// `search.second_search` of the budget.
   Found from_guess(const Frame& frame, const Eigen::VectorXd& start, const Budget& budget,
                    std::uint64_t seed);
 

@@ -18,14 +18,14 @@ namespace {
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
 // search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
-// Places that are searched although a start that recognises the model sees it nowhere.
+// Places that are searched although a starter that detects the model sees it nowhere.
 constexpr std::size_t kDeniedPlaces = 2;
-// Effort of searches for a known model after a start that recognises it, as a share of the usual
+// Effort of searches for a known model after a starter that detects it, as a share of the usual
 // one: it says where the model is, or later frames search again.
 constexpr double kToldShare = 0.2;
 constexpr std::size_t kAllPlaces = std::numeric_limits<std::size_t>::max();
 
-/// Lends a tracker's global search to its starts.
+/// Lends a tracker's global search to its starters.
 class LentSearch final : public GlobalSearch {
  public:
   using Search = std::function<void(const GlobalSearchSettings&, const TakePose&)>;
@@ -180,7 +180,7 @@ double CandidateFinder::ModelSearch::distance(const Eigen::VectorXd& a,
 
 double CandidateFinder::ModelSearch::unseen(const Eigen::VectorXd& state) const {
   const auto is_here = [&](const Eigen::VectorXd& other) { return distance(other, state) < kHere; };
-  if (std::ranges::any_of(recognized_, is_here)) return 0;
+  if (std::ranges::any_of(detected_, is_here)) return 0;
   if (is_followed_ && is_here(best_.found.state)) return request_.unseen[model_];
   return std::numeric_limits<double>::infinity();
 }
@@ -190,13 +190,14 @@ bool CandidateFinder::ModelSearch::is_known(const Eigen::VectorXd& state) const 
   return is_followed_ && !request_.thorough[model_] && distance(state, best_.found.state) < kHere;
 }
 
-CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start, bool denied,
+CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Starter& starter,
+                                                                          bool denied,
                                                                           bool may_search) {
-  const ProfiledPart part("ask a start");
+  const ProfiledPart part("ask a starter");
   LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
-    // Where a start sees the model, its pose is about known; where one denies it, it hardly is
+    // Where a starter sees the model, its pose is about known; where one denies it, it hardly is
     // there.
-    const bool told = denied || !recognized_.empty();
+    const bool told = denied || !detected_.empty();
     if (told) effort = with_defaults(effort, finder_.settings_.recovery);
     if (told && std::isfinite(task_.last.seconds)) effort = share_of(effort, kToldShare);
     const std::size_t most = denied ? kDeniedPlaces : kAllPlaces;
@@ -205,16 +206,16 @@ CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start&
     });
   });
   const bool searches = !request_.contradicts && may_search;
-  const StartContext context{finder_.scene_, finder_.cameras_, &frame_, searches ? &lent : nullptr,
-                             request_.contradicts};
+  const StarterContext context{finder_.scene_, finder_.cameras_, &frame_,
+                               searches ? &lent : nullptr, request_.contradicts};
   Proposals out;
-  start.find(context, model_, [&](const Eigen::VectorXd& parameters) {
+  starter.find(context, model_, [&](const Eigen::VectorXd& parameters) {
     check_proposal(item_, parameters);
     Eigen::VectorXd state = task_.last.state;
     state.segment(item_.offset, parameters.size()) = parameters;
     const bool is_new = !is_known(state);
     if (is_new) add(state);
-    if (start.recognizes(model_)) recognized_.push_back(state);
+    if (starter.detects(model_)) detected_.push_back(state);
     (is_new ? out.taken : out.known).push_back(std::move(state));
     return !enough();
   });
@@ -237,23 +238,23 @@ void CandidateFinder::ModelSearch::search_only_near(const std::vector<Eigen::Vec
          .centred = true});
 }
 
-void CandidateFinder::ModelSearch::ask_starts() {
+void CandidateFinder::ModelSearch::ask_starters() {
   const auto is_good = [&](const Candidate& one) {
-    return one.probability() >= finder_.settings_.thresholds.surely_above;
+    return one.probability() >= finder_.settings_.thresholds.certain_above;
   };
   const bool never_seen = !std::isfinite(request_.seconds[model_]);
   // Where several models are denied at once, none of them is shown yet.
   if (found_.empty() && is_followed_ && request_.unseen[model_] <= kRemembered)
     add(with_own_part(task_.last.state, best_.found.state));
-  bool asked = false;   // a start that recognises the model, this one or before
-  bool denied = false;  // by such a start
-  for (const std::unique_ptr<Start>& start : finder_.starts_) {
-    const bool is_first = start == finder_.starts_.front();
+  bool asked = false;   // a starter that detects the model, this one or before
+  bool denied = false;  // by such a starter
+  for (const std::unique_ptr<Starter>& starter : finder_.starters_) {
+    const bool is_first = starter == finder_.starters_.front();
     if (enough() || (!is_first && std::ranges::any_of(found_, is_good))) break;
-    const bool recognizes = start->recognizes(model_);
-    asked = asked || recognizes;
-    const Proposals proposed = ask(*start, denied, !asked || request_.thorough[model_]);
-    if (!recognizes) continue;
+    const bool detects = starter->detects(model_);
+    asked = asked || detects;
+    const Proposals proposed = ask(*starter, denied, !asked || request_.thorough[model_]);
+    if (!detects) continue;
     denied = denied || (proposed.taken.empty() && proposed.known.empty());
     if (!request_.contradicts && !proposed.known.empty()) break;
     if (!request_.contradicts && !proposed.taken.empty()) search_only_near(proposed.taken);
@@ -266,10 +267,10 @@ void CandidateFinder::ModelSearch::ask_starts() {
 }
 
 void CandidateFinder::ModelSearch::run() {
-  if (finder_.starts_.empty() || has_held_ || request_.near_only)
+  if (finder_.starters_.empty() || has_held_ || request_.near_only)
     search_places(request_.effort, kAllPlaces, [&](const Eigen::VectorXd& state) { add(state); });
   else
-    ask_starts();
+    ask_starters();
 }
 
 }  // namespace hypotrack::internal

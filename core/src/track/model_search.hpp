@@ -10,7 +10,7 @@ namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Collects candidates for one model of a frame that is lost or in a doubtful pose: around guesses,
-/// and where starts see the model.
+/// and where starters see the model.
 class CandidateFinder::ModelSearch {
  public:
   /// `held` flags models that move with the sought one. Writes evaluations and in_view to `best`.
@@ -42,20 +42,20 @@ class CandidateFinder::ModelSearch {
   /// Searches the first places of the guesses. Calls `take` with states of the scene.
   template <class Take>
   void search_places(const GlobalSearchSettings& effort, std::size_t most, const Take& take);
-  /// States of the scene that a start proposes.
+  /// States of the scene that a starter proposes.
   struct Proposals {
     std::vector<Eigen::VectorXd> taken;
     std::vector<Eigen::VectorXd> known;  ///< where a tracked model already is
   };
-  /// Asks one start. `denied`: another one does not see the model, though it would. `may_search`:
+  /// Asks one starter. `denied`: another one does not see the model, though it would. `may_search`:
   /// it may search the whole pictures.
-  Proposals ask(Start& start, bool denied, bool may_search);
-  void ask_starts();
+  Proposals ask(Starter& starter, bool denied, bool may_search);
+  void ask_starters();
   /// Lets the global search look at the first of these places only.
   void search_only_near(const std::vector<Eigen::VectorXd>& states);
   /// Returns how far apart two states have the model: metres, mean over its landmarks.
   double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
-  /// Returns whether a state that a start proposes is that of the candidate which is followed.
+  /// Returns whether a state that a starter proposes is that of the candidate which is followed.
   bool is_known(const Eigen::VectorXd& state) const;
 
   CandidateFinder& finder_;
@@ -71,7 +71,7 @@ class CandidateFinder::ModelSearch {
   ModelFlags shown_, moving_;
   Recovery::Task task_;
   std::vector<Candidate> found_;
-  std::vector<Eigen::VectorXd> recognized_;  ///< states proposed by starts that recognise it
+  std::vector<Eigen::VectorXd> detected_;    ///< states proposed by starters that detect it
   bool is_followed_ = false;                 ///< the frame's candidate shows the model
   bool sure_ = false;
 };

@@ -13,10 +13,10 @@ void add_to(RecordedSearch* record, const Eigen::MatrixXd& states, const Eigen::
 }
 
 /// Residual differences of search points; the residuals stay where the cost of states has them.
-class SearchDifferences final : public ResidualDifferences {
+class PointDifferences final : public ResidualDifferences {
  public:
-  SearchDifferences(std::unique_ptr<ResidualDifferences> of_states, const SearchSpace& space,
-                    const Eigen::VectorXd& prior, RecordedSearch* record, SearchTally& tally)
+  PointDifferences(std::unique_ptr<ResidualDifferences> of_states, const SearchSpace& space,
+                   const Eigen::VectorXd& prior, RecordedSearch* record, EvaluationTally& tally)
       : of_states_(std::move(of_states)),
         space_(space),
         prior_(prior),
@@ -48,7 +48,7 @@ class SearchDifferences final : public ResidualDifferences {
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
   RecordedSearch* record_;
-  SearchTally& tally_;
+  EvaluationTally& tally_;
 };
 
 }  // namespace
@@ -85,8 +85,8 @@ void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
 }
 
 std::unique_ptr<ResidualDifferences> SearchCost::differences() {
-  return std::make_unique<SearchDifferences>(cost_.least_squares()->differences(), space_, prior_,
-                                             record_, tally_);
+  return std::make_unique<PointDifferences>(cost_.least_squares()->differences(), space_, prior_,
+                                            record_, tally_);
 }
 
 NormalEquations SearchCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,

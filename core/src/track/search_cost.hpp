@@ -7,8 +7,8 @@
 #include "cost/cost.hpp"
 #include "hypotrack/plugin/optimizer.hpp"
 #include "hypotrack/plugin/output.hpp"
+#include "track/evaluation_tally.hpp"
 #include "track/search_space.hpp"
-#include "track/search_tally.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -19,13 +19,13 @@ class SearchCost final : public CostFunction, public ResidualCost {
   /// Points are those around `prior`. `record`, if given, receives what is evaluated, and `tracer`
   /// how the cost falls. All arguments must outlive the search cost.
   SearchCost(Cost& cost, const SearchSpace& space, const Eigen::VectorXd& prior,
-             RecordedSearch* record = nullptr, SearchTracer* tracer = nullptr)
+             RecordedSearch* record = nullptr, OptimizerTracer* tracer = nullptr)
       : cost_(cost), space_(space), prior_(prior), record_(record) {
     tally_.tracer = tracer;
   }
 
   /// Returns what was evaluated so far.
-  const SearchTally& tally() const { return tally_; }
+  const EvaluationTally& tally() const { return tally_; }
 
   // CostFunction
   int dimension() const override { return space_.dimension(); }
@@ -51,7 +51,7 @@ class SearchCost final : public CostFunction, public ResidualCost {
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
   RecordedSearch* record_;
-  SearchTally tally_;
+  EvaluationTally tally_;
 };
 
 }  // namespace internal

@@ -40,7 +40,7 @@ std::vector<SearchGroup> search_groups(const Scene& scene, const std::vector<boo
 
 }  // namespace
 
-std::span<const std::string_view> enum_names(RotationSearch) {
+std::span<const std::string_view> enum_names(RotationCoordinates) {
   static constexpr std::array<std::string_view, 2> names{"quaternion", "tangent"};
   return names;
 }

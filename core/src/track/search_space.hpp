@@ -17,19 +17,19 @@ namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Parametrisation of rotations in search points.
-enum class RotationSearch {
+enum class RotationCoordinates {
   quaternion,  ///< its four components, normalised when a point becomes a state (as in the paper)
   tangent,     ///< a rotation vector (3 numbers, radians) applied to the prior's rotation
 };
-std::span<const std::string_view> enum_names(RotationSearch);
+std::span<const std::string_view> enum_names(RotationCoordinates);
 
 /// `search:` of a scene: where a search starts, and how far from there it expects the solution.
 struct SearchSettings {
   double position = 0.040;
   double rotation = 10 * kDegree;
   double angle = 10 * kDegree;
-  RotationSearch rotation_as = RotationSearch::quaternion;
-  double second_look = 0;
+  RotationCoordinates rotation_as = RotationCoordinates::quaternion;
+  double second_search = 0;
   PredictionSettings prediction;
   void visit(ParamVisitor& v) {
     v("position_mm", position,
@@ -53,7 +53,7 @@ struct SearchSettings {
     v("rotation_as", rotation_as,
       {.help =
            "coordinates of a rotation for optimizers: quaternion components or a tangent vector"});
-    v("second_look", second_look,
+    v("second_search", second_search,
       {.help = "before the first solution: share of a frame's budget for a second search from the "
                "first one's answer, with colours learned there; 0: none",
        .min = 0,
@@ -73,7 +73,7 @@ class SearchSpace {
   /// Returns the length of a search point.
   int dimension() const { return dimension_; }
   /// Returns whether search points have rotation vectors in place of quaternions.
-  bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }
+  bool rotation_vectors() const { return settings_.rotation_as == RotationCoordinates::tangent; }
 
   /// Returns the search region around a prior state. Its groups are the models'
   /// (parameter_groups()). Joints of the prior outside the models' bounds are moved onto them.

@@ -26,8 +26,8 @@ void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) 
   if (parameters.size() != size || !parameters.allFinite() ||
       std::abs(parameters.segment<4>(3).norm() - 1) > 1e-6)
     throw PluginError(
-        fmt::format("a start proposes a pose of '{}' with {} parameters; expected {} finite ones "
-                    "and a unit quaternion; this is a bug in the start",
+        fmt::format("a starter proposes a pose of '{}' with {} parameters; expected {} finite ones "
+                    "and a unit quaternion; this is a bug in the starter",
                     item.name, parameters.size(), size));
 }
 
@@ -41,16 +41,16 @@ std::optional<double> Sighting::distance(const Model& model, std::span<const dou
   return nearest;
 }
 
-Sighting sighting(const std::vector<std::unique_ptr<Start>>& starts, const Scene& scene,
+Sighting sighting(const std::vector<std::unique_ptr<Starter>>& starters, const Scene& scene,
                   const std::vector<Camera>& cameras, const Frame& frame, std::size_t model) {
   const Scene::Item& item = scene.items().at(model);
-  const StartContext context{
+  const StarterContext context{
       .scene = scene, .cameras = cameras, .frame = &frame, .sure_only = true};
   Sighting out;
-  for (const std::unique_ptr<Start>& start : starts) {
-    if (!start->recognizes(model)) continue;
+  for (const std::unique_ptr<Starter>& starter : starters) {
+    if (!starter->detects(model)) continue;
     out.asked = true;
-    start->find(context, model, [&](const Eigen::VectorXd& parameters) {
+    starter->find(context, model, [&](const Eigen::VectorXd& parameters) {
       check_proposal(item, parameters);
       out.poses.push_back(parameters);
       return true;

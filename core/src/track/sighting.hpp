@@ -11,12 +11,12 @@
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/scene.hpp"
-#include "hypotrack/plugin/start.hpp"
+#include "hypotrack/plugin/starter.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Distances, mean over a model's landmarks in metres, up to which a start sees a model where a
+/// Distances, mean over a model's landmarks in metres, up to which a starter sees a model where a
 /// pose has it, and beyond which it contradicts the pose.
 inline constexpr double kHere = 0.025, kElsewhere = 0.04;
 
@@ -26,7 +26,7 @@ double landmark_distance(const Model& model, std::span<const double> a, std::spa
 /// Returns the mean of a model's landmarks in a pose.
 Eigen::Vector3d landmark_center(const Model& model, const Eigen::VectorXd& pose);
 
-/// Throws PluginError unless a start proposes a pose of the model.
+/// Throws PluginError unless a starter proposes a pose of the model.
 void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters);
 
 /// The poses in which the detectors of a model see it in a frame.
@@ -39,7 +39,7 @@ struct Sighting {
 };
 
 /// Asks the detectors of a model for its poses, without a search.
-Sighting sighting(const std::vector<std::unique_ptr<Start>>& starts, const Scene& scene,
+Sighting sighting(const std::vector<std::unique_ptr<Starter>>& starters, const Scene& scene,
                   const std::vector<Camera>& cameras, const Frame& frame, std::size_t model);
 
 }  // namespace internal

@@ -41,49 +41,49 @@ void StatusMonitor::remember(double cost) {
   if (costs_.size() > static_cast<std::size_t>(settings_.history)) costs_.pop_front();
 }
 
-Status StatusMonitor::judge(const StatusEvidence& evidence) {
-  const Status status = decide(evidence);
+Status StatusMonitor::judge(const StatusMeasures& measures) {
+  const Status status = decide(measures);
   constexpr int kAtOnce = 1000;  // a tracked scene stays tracked
-  const bool would_do = evidence.probability >= settings_.thresholds.tracked_above;
+  const bool would_do = measures.probability >= settings_.thresholds.tracked_above;
   steady_ = status == Status::tracked ? kAtOnce : would_do ? steady_ + 1 : 0;
   if (status == Status::tracked) ever_tracked_ = true;
   return status;
 }
 
-Status StatusMonitor::decide(const StatusEvidence& evidence) {
-  if (!evidence.in_view) return Status::absent;
+Status StatusMonitor::decide(const StatusMeasures& measures) {
+  if (!measures.in_view) return Status::absent;
   // The cost may be meaningless off the foreground: pixels off the mask may weigh nothing.
-  if (!std::isfinite(evidence.cost) || evidence.visible < settings_.min_visible ||
-      evidence.sigma > settings_.lost_sigma ||
-      evidence.foreground_overlap == ForegroundOverlap::nowhere ||
-      (evidence.probability < settings_.thresholds.uncertain_above && !evidence.recognized)) {
+  if (!std::isfinite(measures.cost) || measures.visible < settings_.min_visible ||
+      measures.sigma > settings_.lost_sigma ||
+      measures.foreground_overlap == ForegroundOverlap::nowhere ||
+      (measures.probability < settings_.thresholds.uncertain_above && !measures.detected)) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
-  if (std::isnan(evidence.probability)) return judge_by_cost(evidence);
+  if (std::isnan(measures.probability)) return judge_by_cost(measures);
   const double enough =
-      evidence.confirmed ? std::min(needed(), settings_.thresholds.confirmed_above) : needed();
-  const bool doubtful = evidence.probability < enough ||
-                        evidence.visible < 2 * settings_.min_visible ||
-                        evidence.foreground_overlap == ForegroundOverlap::in_parts ||
-                        evidence.sigma > settings_.uncertain_sigma;
+      measures.confirmed ? std::min(needed(), settings_.thresholds.confirmed_above) : needed();
+  const bool doubtful = measures.probability < enough ||
+                        measures.visible < 2 * settings_.min_visible ||
+                        measures.foreground_overlap == ForegroundOverlap::in_parts ||
+                        measures.sigma > settings_.uncertain_sigma;
   if (doubtful) return Status::uncertain;
-  remember(evidence.cost);
+  remember(measures.cost);
   return Status::tracked;
 }
 
-Status StatusMonitor::judge_by_cost(const StatusEvidence& evidence) {
+Status StatusMonitor::judge_by_cost(const StatusMeasures& measures) {
   const double usual = usual_cost();
-  const bool outlier = std::isfinite(usual) && evidence.cost > usual;
+  const bool outlier = std::isfinite(usual) && measures.cost > usual;
   // Remember outliers, too: another posture may change the cost for good, and must become the usual
   // cost.
-  remember(evidence.cost);
-  if (outlier || evidence.visible < 2 * settings_.min_visible ||
-      evidence.foreground_overlap == ForegroundOverlap::in_parts)
+  remember(measures.cost);
+  if (outlier || measures.visible < 2 * settings_.min_visible ||
+      measures.foreground_overlap == ForegroundOverlap::in_parts)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
   // A sigma that stays large, as of hidden limbs, does not make a model lost.
-  return evidence.sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
+  return measures.sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
 }
 
 }  // namespace hypotrack::internal

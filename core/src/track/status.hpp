@@ -61,7 +61,7 @@ struct StatusSettings {
 };
 
 /// Measurements that decide a status.
-struct StatusEvidence {
+struct StatusMeasures {
   double cost = 0;         ///< infinite: no pose was found
   double probability = 0;  ///< that the pose is right, from the pictures; NaN: unknown
   double visible = 0;      ///< share of the models' vertices that project into every image
@@ -69,7 +69,7 @@ struct StatusEvidence {
   ForegroundOverlap foreground_overlap = ForegroundOverlap::unknown;
   bool in_view = true;      ///< false: a search of the whole pictures did not find the model
   bool confirmed = false;   ///< searches from other starts ended in the same pose
-  bool recognized = false;  ///< a detector sees the model near this pose
+  bool detected = false;    ///< a detector sees the model near this pose
 };
 
 /// Decides the status of a model in a frame. Where the pictures do not tell whether a pose is
@@ -78,14 +78,14 @@ class StatusMonitor {
  public:
   explicit StatusMonitor(const StatusSettings& settings) : settings_(settings) {}
 
-  Status judge(const StatusEvidence& evidence);
+  Status judge(const StatusMeasures& measures);
 
   /// Returns the probability that a pose needs to count as tracked now: more just after a loss,
   /// less before anything was tracked.
   double needed() const {
     constexpr int kSteady = 4;  // frames in a row that reach `tracked_above`
     if (!ever_tracked_) return settings_.thresholds.first_above;
-    return steady_ < kSteady ? settings_.thresholds.surely_above
+    return steady_ < kSteady ? settings_.thresholds.certain_above
                              : settings_.thresholds.tracked_above;
   }
 
@@ -99,8 +99,8 @@ class StatusMonitor {
   double usual_cost() const;
 
  private:
-  Status decide(const StatusEvidence& evidence);
-  Status judge_by_cost(const StatusEvidence& evidence);
+  Status decide(const StatusMeasures& measures);
+  Status judge_by_cost(const StatusMeasures& measures);
   void remember(double cost);
 
   StatusSettings settings_;

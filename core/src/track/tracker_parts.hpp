@@ -10,7 +10,7 @@
 #include "hypotrack/plugin/judge.hpp"
 #include "hypotrack/plugin/optimizer.hpp"
 #include "hypotrack/plugin/search.hpp"
-#include "hypotrack/plugin/start.hpp"
+#include "hypotrack/plugin/starter.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
@@ -36,9 +36,9 @@ struct TrackerParts {
   FixedLagSettings fixed_lag;
   Budget budget;                          ///< 0 evaluations: the optimizer's default
   SearchClock clock = SearchClock::wall;  ///< of the budget's seconds
-  /// Starts that look for lost models, in this order; empty: the global search alone.
-  std::vector<std::unique_ptr<Start>> starts = {};
-  /// True if they also look for models that were never seen: no start gives a state.
+  /// Starters that look for lost models, in this order; empty: the global search alone.
+  std::vector<std::unique_ptr<Starter>> starters = {};
+  /// True if they also look for models that were never seen: no starter gives a state.
   bool begins_by_looking = false;
 };
 

@@ -33,7 +33,7 @@ struct RigidBoxParams {
     v("texture", texture, {.help = "picture for every face instead of the pattern"});
     v("pattern", pattern,
       {.help =
-           "which printed pattern: a different one per number. Starts look for its colours: give "
+           "which printed pattern: a different one per number. Starters look for its colours: give "
            "`color` or `texture` for a real box",
        .min = 0});
   }

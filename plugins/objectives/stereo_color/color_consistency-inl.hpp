@@ -21,7 +21,7 @@ struct ColorSample {
 /// Parameters of the similarity of colours as a function of their distance.
 template <class F>
 struct SimilarityCurve {
-  F beta, charge;
+  F beta, coverage_penalty;
   bool gaussian;
 };
 
@@ -36,7 +36,7 @@ HYPOTRACK_PIXEL F squared_difference(const ColorSample<F>& left, const ColorSamp
 }
 
 /// Computes the colour consistency of a surface point seen in both views: s = min(C_l, C_r)
-/// (exp(-x) - charge), x = beta ||I_l - I_r|| or its square.
+/// (exp(-x) - coverage_penalty), x = beta ||I_l - I_r|| or its square.
 template <class F>
 HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSample<F>& right,
                                     const SimilarityCurve<F>& curve) {
@@ -46,7 +46,7 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
   const F square = squared_difference(left, right);
   const F beta = curve.beta;
   const F x = curve.gaussian ? beta * beta * square : beta * quick_sqrt(square);
-  return min(left.weight, right.weight) * (exp(F(0.0f) - x) - curve.charge);
+  return min(left.weight, right.weight) * (exp(F(0.0f) - x) - curve.coverage_penalty);
 }
 
 /// Returns the residual of a pixel of weight C: sqrt(share (C - s)), with s = 0 unless both views

@@ -17,7 +17,8 @@ namespace hypotrack::stereo_color::HWY_NAMESPACE {
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
 
 HYPOTRACK_PIXEL SimilarityCurve<Lanes> similarity_curve(const Settings& settings) {
-  return {Lanes(static_cast<float>(settings.beta)), Lanes(static_cast<float>(settings.charge)),
+  return {Lanes(static_cast<float>(settings.beta)),
+          Lanes(static_cast<float>(settings.coverage_penalty)),
           settings.falloff == Falloff::gaussian};
 }
 

@@ -32,7 +32,7 @@ struct Params : Settings {
     v("falloff", falloff,
       {.help = "similarity at a colour distance d: the paper's exp(-beta d), or exp(-(beta d)^2), "
                "which keeps colours alike that differ by no more than noise"});
-    v("charge", charge,
+    v("coverage_penalty", coverage_penalty,
       {.help = "least similarity at which covering a pixel pays: a pixel counts by its similarity "
                "minus this",
        .min = 0,

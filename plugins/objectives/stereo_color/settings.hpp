@@ -16,7 +16,7 @@ struct Settings {
   double beta_min = 40;
   double beta_max = 120;
   Falloff falloff = Falloff::exponential;
-  double charge = 0;
+  double coverage_penalty = 0;
   double gray_weight = 1;
   double w_t = 0.1;
   double r = 3e-3;  ///< m

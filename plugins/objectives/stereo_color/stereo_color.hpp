@@ -32,20 +32,23 @@ namespace hypotrack::stereo_color {
 /// background included; gradients by central differences (their scale cancels with the medians);
 /// the right view read at the nearest pixel. Extensions: the other values of color_space,
 /// aggregation, direction, lookup, distinctiveness and falloff; a beta that follows the noise of
-/// the pictures (beta.hpp); a charge:
-///   s = min(C_l, C_r) (exp(-x) - charge),   x = beta ||I_l - I_r||, or its square (gaussian)
-/// so that covering pixels less alike than the charge, mostly background, costs; a gray_weight g:
+/// the pictures (beta.hpp); a coverage penalty:
+///   s = min(C_l, C_r) (exp(-x) - coverage_penalty),   x = beta ||I_l - I_r||, or its square
+///   (gaussian)
+/// so that covering pixels less alike than the coverage penalty, mostly background, costs; a
+/// gray_weight g:
 ///   ||I_l - I_r||^2 = |d|^2 - (1 - g^2) (d_R + d_G + d_B)^2 / 3,   d = I_l - I_r
 /// because highlights have the light's colour and lie elsewhere for each camera (Shafer, "Using
 /// color to separate reflection components", Color Research and Application 1985).
 ///
-/// A hypothesis without a pixel that both views see costs 0, without a charge the worst cost.
+/// A hypothesis without a pixel that both views see costs 0, without a coverage penalty the worst
+/// cost.
 ///
 /// With the aggregation `sum` the cost is a sum of squares, up to a constant of the frame. Every
 /// pixel of the left tile, covered or not, has the residual sqrt(C - s). s is 0 unless both views
-/// see its surface, and negative where the charge exceeds the similarity. So a silhouette that
-/// misses a distinctive pixel has a residual at that pixel. With `both` directions each pixel of
-/// either tile has the residual sqrt((C - s) / 2).
+/// see its surface, and negative where the coverage penalty exceeds the similarity. So a silhouette
+/// that misses a distinctive pixel has a residual at that pixel. With `both` directions each pixel
+/// of either tile has the residual sqrt((C - s) / 2).
 class StereoColor : public Objective, public ResidualTerm {
  public:
   using Params = stereo_color::Params;

@@ -5,52 +5,52 @@
 #include <utility>
 #include <vector>
 
-#include "least_squares_search.hpp"
+#include "damped_least_squares.hpp"
 
 namespace hypotrack {
 namespace {
 
-using Wants = LeastSquaresSearch::Wants;
+using Wants = DampedLeastSquares::Wants;
 
-std::vector<LeastSquaresSearch*> those_that_want(std::vector<LeastSquaresSearch>& searches,
+std::vector<DampedLeastSquares*> those_that_want(std::vector<DampedLeastSquares>& searches,
                                                  Wants wanted) {
-  std::vector<LeastSquaresSearch*> out;
-  for (LeastSquaresSearch& search : searches) {
+  std::vector<DampedLeastSquares*> out;
+  for (DampedLeastSquares& search : searches) {
     if (search.wants() == wanted) out.push_back(&search);
   }
   return out;
 }
 
 /// Evaluates what all searches want in one batch.
-void evaluate(CostFunction& cost, const std::vector<LeastSquaresSearch*>& searches) {
+void evaluate(CostFunction& cost, const std::vector<DampedLeastSquares*>& searches) {
   Eigen::Index count = 0;
-  for (const LeastSquaresSearch* search : searches) count += search->points().cols();
+  for (const DampedLeastSquares* search : searches) count += search->points().cols();
   Eigen::MatrixXd points(cost.dimension(), count);
   Eigen::Index first = 0;
-  for (const LeastSquaresSearch* search : searches) {
+  for (const DampedLeastSquares* search : searches) {
     points.middleCols(first, search->points().cols()) = search->points();
     first += search->points().cols();
   }
   Eigen::VectorXd costs(count);
   cost.evaluate(points, costs);
   first = 0;
-  for (LeastSquaresSearch* search : searches) {
+  for (DampedLeastSquares* search : searches) {
     const Eigen::Index own = search->points().cols();
     search->take(costs.segment(first, own));
     first += own;
   }
 }
 
-void linearize(ResidualCost& residuals, const std::vector<LeastSquaresSearch*>& searches) {
+void linearize(ResidualCost& residuals, const std::vector<DampedLeastSquares*>& searches) {
   std::vector<Neighbourhood> points;
-  for (const LeastSquaresSearch* search : searches) points.push_back(search->neighbourhood());
+  for (const DampedLeastSquares* search : searches) points.push_back(search->neighbourhood());
   const std::vector<NormalEquations> equations = residuals.linearize_each(points);
   for (std::size_t i = 0; i < searches.size(); ++i) searches[i]->take(equations[i]);
 }
 
 /// Runs searches with analytic Jacobians in step.
 void run_in_step(CostFunction& cost, ResidualCost& residuals, const Deadline& deadline,
-                 std::vector<LeastSquaresSearch>& searches) {
+                 std::vector<DampedLeastSquares>& searches) {
   evaluate(cost, those_that_want(searches, Wants::costs));
   while (!deadline.passed()) {
     const auto to_evaluate = those_that_want(searches, Wants::costs);
@@ -66,7 +66,7 @@ void run_in_step(CostFunction& cost, ResidualCost& residuals, const Deadline& de
 
 /// Runs a search with numerical Jacobians.
 void run_numerically(ResidualCost& residuals, const SearchRegion& region, const Deadline& deadline,
-                     LeastSquaresSearch& search) {
+                     DampedLeastSquares& search) {
   const auto differences = residuals.differences();
   const auto follow = [&](Eigen::Index moved_to) {
     if (moved_to >= 0) differences->move_to(moved_to);
@@ -114,13 +114,13 @@ std::vector<OptimizerResult> LevenbergMarquardt::search_each(CostFunction& cost,
                                                              const Budget& budget) const {
   ResidualCost* residuals = cost.residuals();
   check_requirements(requirements(), residuals, nullptr);
-  using Source = LeastSquaresSearch::Source;
+  using Source = DampedLeastSquares::Source;
   const bool analytic = is_analytic(*residuals);
   const Source source = !analytic                       ? Source::differences
                         : residuals->draws_neighbours() ? Source::mixed
                                                         : Source::analytic;
   const Deadline deadline(budget.seconds);
-  std::vector<LeastSquaresSearch> searches;
+  std::vector<DampedLeastSquares> searches;
   for (const SearchRegion& region : regions) {
     check_search(cost, region, budget);
     searches.emplace_back(region, budget.evaluations, params_, source);
@@ -134,14 +134,14 @@ std::vector<OptimizerResult> LevenbergMarquardt::search_each(CostFunction& cost,
     }
   }
   std::vector<OptimizerResult> out;
-  for (const LeastSquaresSearch& search : searches) out.push_back(search.result());
+  for (const DampedLeastSquares& search : searches) out.push_back(search.result());
   return out;
 }
 
 std::vector<OptimizerResult> LevenbergMarquardt::search_from_starts(
     CostFunction& cost, std::span<const SearchRegion> regions, const Budget& budget,
     const std::vector<std::uint64_t>& seeds) const {
-  const auto starts = std::min<std::int64_t>(params_.starts, budget.evaluations);
+  const auto starts = std::min<std::int64_t>(params_.restarts, budget.evaluations);
   if (starts <= 1) return search_each(cost, regions, budget);
   std::vector<SearchRegion> all;
   for (std::size_t k = 0; k < regions.size(); ++k) {

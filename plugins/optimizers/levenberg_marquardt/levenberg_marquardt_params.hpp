@@ -28,7 +28,7 @@ struct LevenbergMarquardtParams {
   double damping_factor = 4;
   double mean_share = 0.05;
   double tolerance = 1e-4;
-  int starts = 1;
+  int restarts = 1;
   StartParams around;
   void visit(ParamVisitor& v) {
     v("evaluations", evaluations,
@@ -69,7 +69,7 @@ struct LevenbergMarquardtParams {
       {.help = "a step below this share of the spread in every number does not help",
        .min = 0,
        .max = 1});
-    v("starts", starts,
+    v("restarts", restarts,
       {.help = "searches from different starts that share the evaluations; the first begins at the "
                "start",
        .min = 1,

@@ -25,8 +25,8 @@ std::vector<Eigen::Index> lowest(const Eigen::VectorXd& costs, std::int64_t coun
 MultiStart::MultiStart(const MultiStartParams& params, std::unique_ptr<Optimizer> optimizer,
                        const std::string& where)
     : params_(params), optimizer_(std::move(optimizer)) {
-  if (params.candidates < params.starts) {
-    throw ConfigError(where + ": multi_start: starts is " + std::to_string(params.starts) +
+  if (params.candidates < params.restarts) {
+    throw ConfigError(where + ": multi_start: restarts is " + std::to_string(params.restarts) +
                       ", expected at most the " + std::to_string(params.candidates) +
                       " candidates that they are the best of");
   }
@@ -47,7 +47,7 @@ OptimizerResult MultiStart::minimize(CostFunction& cost, const SearchRegion& reg
   const std::int64_t left = budget.evaluations - best.evaluations;
   if (left == 0 || deadline.passed()) return best;
   const std::vector<Eigen::Index> starts =
-      lowest(costs, std::min<std::int64_t>(params_.starts, left));
+      lowest(costs, std::min<std::int64_t>(params_.restarts, left));
   const std::int64_t evaluations = left / static_cast<std::int64_t>(starts.size());
   std::vector<SearchRegion> regions;
   for (const Eigen::Index start : starts) {

@@ -10,7 +10,7 @@ namespace hypotrack {
 
 struct MultiStartParams {
   ConfigNode optimizer;
-  int starts = 4;
+  int restarts = 4;
   int candidates = 64;
   double spread = 0.5;
   StartParams around;
@@ -18,11 +18,11 @@ struct MultiStartParams {
   void visit(ParamVisitor& v) {
     v("optimizer", optimizer,
       {.help = "the search from each start: {type: ..., its parameters}", .required = true});
-    v("starts", starts,
+    v("restarts", restarts,
       {.help = "searches, each from one of the best candidates", .min = 1, .max = 1 << 20});
     v("candidates", candidates,
       {.help = "points evaluated together before the searches: the start and samples about it; at "
-               "least `starts`",
+               "least `restarts`",
        .min = 1,
        .max = 1 << 20});
     v("spread", spread,
@@ -42,7 +42,7 @@ struct MultiStartParams {
 /// pipeline.
 class MultiStart : public Optimizer {
  public:
-  /// Throws ConfigError, naming `where`, if there are more starts than candidates.
+  /// Throws ConfigError, naming `where`, if there are more restarts than candidates.
   MultiStart(const MultiStartParams& params, std::unique_ptr<Optimizer> optimizer,
              const std::string& where = "multi_start");
 

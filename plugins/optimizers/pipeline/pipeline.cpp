@@ -92,7 +92,7 @@ OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& regio
     const std::int64_t left = budget.evaluations - best.evaluations;
     if (left == 0 || (best.evaluations > 0 && deadline.passed())) break;
     const bool needed =
-        !stages_[k].rescue || best.evaluations == 0 || best.cost > budget.usual_cost;
+        !stages_[k].fallback || best.evaluations == 0 || best.cost > budget.usual_cost;
     const double share = k + 1 < stages_.size() ? stages_[k].share / shares : 1;
     shares -= stages_[k].share;
     const auto evaluations =

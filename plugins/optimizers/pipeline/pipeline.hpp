@@ -32,7 +32,7 @@ struct PipelineStage {
   std::unique_ptr<Optimizer> optimizer;
   double share = 1;     ///< of the budget, relative to the other stages' shares; > 0
   double spread = 1;    ///< factor of the region's spread for this stage; > 0
-  bool rescue = false;  ///< skipped if the best cost so far is not above the usual
+  bool fallback = false;  ///< skipped if the best cost so far is not above the usual
   Moves moves = Moves::all;
   StageStart from = StageStart::best;
 };
@@ -42,7 +42,7 @@ struct PipelineStage {
 ///
 /// A stage gets its share of the evaluations and seconds that the stages before it left, so that
 /// unused budget goes to later stages. Evaluations are rounded down; the last stage gets all that
-/// are left. A stage without an evaluation is skipped. A rescue stage is skipped if the best cost
+/// are left. A stage without an evaluation is skipped. A fallback stage is skipped if the best cost
 /// so far is at or below Budget::usual_cost. Every later stage spends one evaluation on its known
 /// start. Stage k searches with seed_of_part(seed, k). Dimensions that a stage does not move have
 /// equal bounds at its start. In a region without groups every stage moves all.

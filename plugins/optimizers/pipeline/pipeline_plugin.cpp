@@ -9,7 +9,7 @@ struct StageParams {
   hypotrack::ConfigNode optimizer;
   double share = 1;
   double spread = 1;
-  bool rescue = false;
+  bool fallback = false;
   hypotrack::Moves moves = hypotrack::Moves::all;
   hypotrack::StageStart from = hypotrack::StageStart::best;
   void visit(ParamVisitor& v) {
@@ -24,7 +24,7 @@ struct StageParams {
                "best so far",
        .min = 1e-3,
        .max = 1e3});
-    v("rescue", rescue,
+    v("fallback", fallback,
       {.help = "skip this stage if the cost is already within the range of recent frames; later "
                "stages get its budget"});
     v("moves", moves,
@@ -56,7 +56,7 @@ std::vector<hypotrack::PipelineStage> make_stages(const PipelineParams& params,
   for (const StageParams& stage : params.stages) {
     auto optimizer = context.make<hypotrack::Optimizer>(stage.optimizer);
     stages.push_back({stage.optimizer.get("type").scalar(), std::move(optimizer), stage.share,
-                      stage.spread, stage.rescue, stage.moves, stage.from});
+                      stage.spread, stage.fallback, stage.moves, stage.from});
   }
   return stages;
 }

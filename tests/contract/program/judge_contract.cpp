@@ -117,7 +117,7 @@ std::vector<double> answers(const Judge& judge, const std::vector<Measures>& to)
 
 void check_thresholds(const JudgeThresholds& t) {
   for (const auto& [name, value] :
-       {std::pair("tracked_above", t.tracked_above), std::pair("surely_above", t.surely_above),
+       {std::pair("tracked_above", t.tracked_above), std::pair("certain_above", t.certain_above),
         std::pair("first_above", t.first_above), std::pair("confirmed_above", t.confirmed_above)}) {
     require(value >= 0 && value <= 1,
             std::string(name) + " is " + std::to_string(value) + ", expected 0 to 1");

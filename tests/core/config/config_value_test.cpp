@@ -93,7 +93,7 @@ TEST(ConfigValue, TakesOverridesReferencesAndTrackers) {
   const test::TemporaryDirectory folder;
   std::ofstream(folder.path() / "other.yaml") << "models: [{type: cup, file: cup.obj}]\nseed: 5\n";
   std::ofstream(folder.path() / "fast.yaml")
-      << "objective: {type: edges}\noptimizer: {type: pso}\nsearch: {second_look: 0.5}\n";
+      << "objective: {type: edges}\noptimizer: {type: pso}\nsearch: {second_search: 0.5}\n";
   const ConfigNode scene =
       Value::map({{"models", "@other.yaml"},
                   {"seed", "@other.yaml#seed"},
@@ -107,7 +107,7 @@ TEST(ConfigValue, TakesOverridesReferencesAndTrackers) {
   EXPECT_EQ(scene.get("extra").scalar(), "5");
   EXPECT_EQ(scene.get("optimizer").get("type").scalar(), "pso");
   EXPECT_EQ(scene.get("optimizer").get("particles").where(), "--set optimizer.particles=8");
-  EXPECT_EQ(scene.get("search").get("second_look").scalar(), "0.5") << "maps are joined";
+  EXPECT_EQ(scene.get("search").get("second_search").scalar(), "0.5") << "maps are joined";
   EXPECT_EQ(scene.get("search").get("angle_deg").where(), "my scene: search.angle_deg");
   EXPECT_EQ(scene.get("status").get("patience").scalar(), "1");
 }

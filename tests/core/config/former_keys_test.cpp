@@ -92,6 +92,60 @@ TEST_F(FormerKeys, ThatNeverWereAreRefusedWithTheirPlace) {
                     HasSubstr("did you mean 'patience'?"), HasSubstr("\"@trackers/NAME\"")));
 }
 
+/// Text with a former key, the same with that of today, and both keys as a note tells them.
+struct Renamed {
+  const char *former, *today, *note;
+};
+constexpr Renamed kRenamed[] = {
+    {"search: {second_look: 0.2}\n", "search: {second_search: 0.2}\n",
+     "`second_look` is `second_search` now"},
+    {"recovery: {first_starts: 2}\n", "recovery: {first_restarts: 2}\n",
+     "`first_starts` is `first_restarts` now"},
+    {"judge: {type: network, surely_above: 0.5}\n", "judge: {type: network, certain_above: 0.5}\n",
+     "`surely_above` is `certain_above` now"},
+    {"objective:\n  - {type: edges, charge: 1}\n  - {type: stereo_color, charge: 0.1}  # why\n",
+     "objective:\n  - {type: edges, charge: 1}\n  - {type: stereo_color, coverage_penalty: 0.1}  # "
+     "why\n",
+     "`charge` is `coverage_penalty` now"},
+    {"optimizer: {type: multi_start, starts: 3, optimizer: {type: pso, starts: 1}}\n",
+     "optimizer: {type: multi_start, restarts: 3, optimizer: {type: pso, starts: 1}}\n",
+     "`starts` is `restarts` now"},
+    {"optimizer: {type: levenberg_marquardt, \"starts\": 3}\n",
+     "optimizer: {type: levenberg_marquardt, \"restarts\": 3}\n", "`starts` is `restarts` now"},
+    {"optimizer:\n  type: pipeline\n  stages:\n    - optimizer: {type: pso, rescue: 1}\n      "
+     "rescue: true\n",
+     "optimizer:\n  type: pipeline\n  stages:\n    - optimizer: {type: pso, rescue: 1}\n      "
+     "fallback: true\n",
+     "`rescue` is `fallback` now"},
+    {"shape: {from: starts}\n", "shape: {from: starters}\n", "`starts` is `starters` now"}};
+
+TEST_F(FormerKeys, HaveTheirNameOfToday) {
+  for (const auto& [former, today, note] : kRenamed) {
+    EXPECT_EQ(load(former).to_yaml(), load(today).to_yaml()) << former;
+    EXPECT_THAT(notes_of(former), testing::ElementsAre(HasSubstr(note))) << former;
+    EXPECT_THAT(notes_of(today), testing::IsEmpty()) << today;
+  }
+}
+
+TEST_F(FormerKeys, ThatHaveAnotherNameWinInAnOverride) {
+  const std::string scene =
+      "search: {second_search: 0.3}\nobjective: {type: stereo_color, coverage_penalty: 0.3}\n";
+  const ConfigNode root = load(scene, {"objective.charge=0.1", "search.second_look=0.2"});
+  EXPECT_EQ(root.get("objective").to_yaml(), "type: stereo_color\ncoverage_penalty: 0.1\n");
+  EXPECT_EQ(root.get("search").to_yaml(), "second_search: 0.2\n");
+  EXPECT_EQ(load("tracker: {surely_above: 0.5}\n").get("judge").to_yaml(),
+            "type: network\ncertain_above: 0.5\n");
+}
+
+TEST(Migrate, RenamesKeys) {
+  for (const auto& [former, today, note] : kRenamed) EXPECT_EQ(migrated(former), today);
+  EXPECT_EQ(migrated("tracker: {surely_above: 0.5, recovery: {first_starts: 2}}\n"),
+            "recovery: {first_restarts: 2}\njudge: {type: network, certain_above: 0.5}\n");
+  EXPECT_EQ(
+      migrated("grid: {search.second_look: [0]}\nscenes: {a: {set: {judge.surely_above: 1}}}\n"),
+      "grid: {search.second_search: [0]}\nscenes: {a: {set: {judge.certain_above: 1}}}\n");
+}
+
 TEST(Migrate, RewritesMapsInBraces) {
   EXPECT_EQ(
       migrated("tracker: {from: \"@trackers/real\", recovery: {run: frame}, patience: 3}  # x\n"),

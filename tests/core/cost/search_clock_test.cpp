@@ -11,9 +11,9 @@ namespace {
 TEST(SearchClock, IsWallTimeOutsideOfAScope) {
   EXPECT_EQ(search_clock(), SearchClock::wall);
   {
-    const SearchClockScope cpu(SearchClock::cpu);
+    const ClockScope cpu(SearchClock::cpu);
     EXPECT_EQ(search_clock(), SearchClock::cpu);
-    const SearchClockScope wall(SearchClock::wall);
+    const ClockScope wall(SearchClock::wall);
     EXPECT_EQ(search_clock(), SearchClock::wall);
   }
   EXPECT_EQ(search_clock(), SearchClock::wall);
@@ -22,7 +22,7 @@ TEST(SearchClock, IsWallTimeOutsideOfAScope) {
 TEST(SearchClock, ADeadlineKeepsTheClockOfItsBegin) {
   const Deadline wall(1000);
   const auto cpu = [] {
-    const SearchClockScope scope(SearchClock::cpu);
+    const ClockScope scope(SearchClock::cpu);
     return Deadline(1000);
   }();
   std::this_thread::sleep_for(std::chrono::milliseconds(50));  // takes no CPU time
@@ -31,7 +31,7 @@ TEST(SearchClock, ADeadlineKeepsTheClockOfItsBegin) {
 }
 
 TEST(SearchClock, ADeadlineOfCpuTimePassesWithWork) {
-  const SearchClockScope scope(SearchClock::cpu);
+  const ClockScope scope(SearchClock::cpu);
   const Deadline deadline(1e-3);
   while (!deadline.passed()) {
   }

@@ -21,10 +21,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-/// Gives a session the start that `init.from` names by this map.
+/// Gives a session the starter that `init.from` names by this map.
 void set_start(OpenedScene& session, const std::string& from) {
   session.init.from = ConfigNode::parse(from, "test");
-  session.start = PluginLoader().make<Start>(session.init.from, session.scene.get());
+  session.starter = PluginLoader().make<Starter>(session.init.from, session.scene.get());
 }
 
 OpenedScene session_of(const std::string& name, const ModelData& model) {
@@ -208,7 +208,7 @@ TEST(InitialState, TakesAFrameOnlyWhereTheStartNeedsOne) {
 
 TEST(InitialState, IsInViewOfBothCamerasWhereModelsAreLookedFor) {
   OpenedScene session = hand_session();
-  session.start.reset();
+  session.starter.reset();
   Camera camera;
   camera.width = 640;
   camera.height = 480;
@@ -236,9 +236,9 @@ TEST(InitialState, IsInViewOfBothCamerasWhereModelsAreLookedFor) {
 }
 
 /// A hand in some pose, and a table of its landmarks in frame 2.
-class LandmarkStart : public ::testing::Test {
+class LandmarkStarter : public ::testing::Test {
  protected:
-  LandmarkStart() : file_(folder_.path() / "labels.csv") {
+  LandmarkStarter() : file_(folder_.path() / "labels.csv") {
     const Scene& scene = *session_.scene;
     std::mt19937_64 random(4);
     Eigen::VectorXd state = test::random_state(scene, random);
@@ -266,14 +266,14 @@ class LandmarkStart : public ::testing::Test {
   Eigen::Matrix3Xd truth_;
 };
 
-TEST_F(LandmarkStart, FitsTheModelToTheLandmarks) {
+TEST_F(LandmarkStarter, FitsTheModelToTheLandmarks) {
   write();
   set("frame: 2");
   EXPECT_LT(mean_error(), 1e-3);
   EXPECT_TRUE(start_state(session_, nullptr).has_value()) << "it needs no frame";
 }
 
-TEST_F(LandmarkStart, FitsToSomeLandmarksInOtherUnits) {
+TEST_F(LandmarkStarter, FitsToSomeLandmarksInOtherUnits) {
   const Eigen::Matrix3Xd all = truth_;
   truth_.rightCols(4).setConstant(std::nan(""));
   write(1000);
@@ -282,7 +282,7 @@ TEST_F(LandmarkStart, FitsToSomeLandmarksInOtherUnits) {
   EXPECT_LT(mean_error(), 10e-3);
 }
 
-TEST_F(LandmarkStart, RefusesLandmarksOfAnotherSize) {
+TEST_F(LandmarkStarter, RefusesLandmarksOfAnotherSize) {
   write();
   set("frame: 2, units: mm");
   EXPECT_THAT(message_of(session_, {}),
@@ -292,7 +292,7 @@ TEST_F(LandmarkStart, RefusesLandmarksOfAnotherSize) {
   EXPECT_THAT(message_of(session_, {}), HasSubstr("does not fit the model 'hand'"));
 }
 
-TEST_F(LandmarkStart, SaysWhatItDoesNotFind) {
+TEST_F(LandmarkStarter, SaysWhatItDoesNotFind) {
   write();
   set("frame: 7");
   EXPECT_THAT(message_of(session_, {}), HasSubstr("frame 7 is not there: the file has 1 to 2"));
@@ -306,7 +306,7 @@ TEST_F(LandmarkStart, SaysWhatItDoesNotFind) {
   EXPECT_THAT(message_of(session_, {}), HasSubstr("frame 2 knows no landmark of the scene"));
 }
 
-TEST_F(LandmarkStart, RefusesLandmarksThatFixNoPose) {
+TEST_F(LandmarkStarter, RefusesLandmarksThatFixNoPose) {
   set("frame: 2");
   truth_.col(3).x() = 1e5;
   write();
@@ -317,7 +317,7 @@ TEST_F(LandmarkStart, RefusesLandmarksThatFixNoPose) {
   EXPECT_THAT(message_of(session_, {}), HasSubstr("only landmarks of 'hand' on a line"));
 }
 
-TEST_F(LandmarkStart, LeavesAModelWithoutLandmarksAtRest) {
+TEST_F(LandmarkStarter, LeavesAModelWithoutLandmarksAtRest) {
   session_.scene =
       std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
           {"box", std::make_shared<Model>(test::make_test_box())},

@@ -28,7 +28,7 @@ source:
 objective: {type: stereo_color, direction: both}
 optimizer: {type: pso, particles: 16, generations: 8}
 recovery: {enabled: false}
-search: {second_look: 0}
+search: {second_search: 0}
 tile: {size: 64}
 init: {from: truth}
 output: {overlay: false, worst_frames: 0}

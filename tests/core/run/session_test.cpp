@@ -83,10 +83,11 @@ class SessionTest : public ::testing::Test {
 
 TEST_F(SessionTest, RefusesToLookWithoutAStartThatCanBeUsed) {
   const auto share = test::build_dir() / "share/hypotrack";
-  std::filesystem::create_directories(path("configs/starts"));
+  std::filesystem::create_directories(path("configs/starters"));
   for (const char* data : {"hands", "rigs"})
     std::filesystem::create_directory_symlink(share / data, path(data));
-  std::ofstream(path("configs/starts/auto.yaml")) << "- {type: hand_landmarks, folder: /nowhere}\n";
+  std::ofstream(path("configs/starters/auto.yaml"))
+      << "- {type: hand_landmarks, folder: /nowhere}\n";
   const test::ScopedVariable variable("HYPOTRACK_DATA_PATH", folder_.path().string());
   const std::string hand = R"(models: [{name: hand, type: hand}]
 source: {type: synthetic, frames: 1, motion: {frames: 1}}
@@ -96,22 +97,22 @@ judge: none
 init: {from: auto}
 )";
   EXPECT_THAT(message_of<ConfigError>([&] { Session session(scene(hand)); }),
-              AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("none of its starts can be used"),
+              AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("none of its starters can be used"),
                     HasSubstr("/nowhere")));
 }
 
 TEST_F(SessionTest, NamesTheFileOfTheUsualStartsIfThatIsWrong) {
-  std::filesystem::create_directories(path("configs/starts"));
+  std::filesystem::create_directories(path("configs/starters"));
   const test::ScopedVariable data("HYPOTRACK_DATA_PATH", folder_.path().string());
   const auto text = std::string(kRest) + kSource + "judge: none\ninit: {from: auto}\n";
   const auto problem_of = [&](const char* starts) {
-    std::ofstream(path("configs/starts/auto.yaml")) << starts;
+    std::ofstream(path("configs/starters/auto.yaml")) << starts;
     return message_of<ConfigError>([&] { Session session(scene(text)); });
   };
-  const std::string file = path("configs/starts/auto.yaml").string();
+  const std::string file = path("configs/starters/auto.yaml").string();
   for (const char* no_list : {"a: b\n", "global_search\n", ""})
     EXPECT_THAT(problem_of(no_list),
-                AllOf(HasSubstr(file), HasSubstr("expected a list of starts")));
+                AllOf(HasSubstr(file), HasSubstr("expected a list of starters")));
 }
 
 TEST_F(SessionTest, TracksFramesOfTheCallerAsARunTracksThoseOfItsSource) {

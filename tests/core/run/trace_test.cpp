@@ -23,7 +23,7 @@ source:
     - {frame: 3, pose: {box: {position_mm: [10, 5, 410]}}}
 objective: {type: stereo_color, direction: both}
 recovery: {enabled: false}
-search: {second_look: 0}
+search: {second_search: 0}
 tile: {size: 64}
 init: {from: truth}
 output: {overlay: false, worst_frames: 0}

@@ -98,7 +98,7 @@ TEST_F(StateObjective, SearchPointsAreDecodedAsOnTheCpu) {
   cpu->prepare(frame);
   device->prepare(frame);
   const Eigen::VectorXd prior = states().col(0);
-  for (const auto rotation_as : {RotationSearch::quaternion, RotationSearch::tangent}) {
+  for (const auto rotation_as : {RotationCoordinates::quaternion, RotationCoordinates::tangent}) {
     SearchSettings settings;
     settings.rotation_as = rotation_as;
     const SearchSpace space(scene_, settings);

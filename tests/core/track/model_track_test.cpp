@@ -21,14 +21,14 @@ class ModelTrackTest : public testing::Test {
     return {scene_, 1, landmarks_, scene_.rest_state(), is_given, {}};
   }
 
-  /// Evidence of a pose by its probability.
-  static StatusEvidence likely(double probability) {
+  /// Measures of a pose by its probability.
+  static StatusMeasures likely(double probability) {
     return {.cost = -1,
             .probability = probability,
             .visible = 1,
             .sigma = std::numeric_limits<double>::quiet_NaN()};
   }
-  static StatusEvidence nothing(bool in_view = true) {
+  static StatusMeasures nothing(bool in_view = true) {
     return {.cost = kInfinite, .in_view = in_view};
   }
   /// A state in which the second box is moved.
@@ -81,7 +81,7 @@ TEST_F(ModelTrackTest, NeedsMoreAfterItLeftItsStart) {
   EXPECT_EQ(track(false).needed(), JudgeThresholds().tracked_above);
   one.leave_start();
   EXPECT_EQ(one.phase(), Phase::sought);
-  EXPECT_EQ(one.needed(), JudgeThresholds().surely_above);
+  EXPECT_EQ(one.needed(), JudgeThresholds().certain_above);
 }
 
 TEST_F(ModelTrackTest, ExtrapolatesTheLastRightPoseByItsFadingMotion) {

@@ -47,7 +47,7 @@ TEST_F(MotionLimitsTest, RefuseAHandThatLeapsOrSpins) {
 
 TEST_F(MotionLimitsTest, BoundWhatASearchMayLookAt) {
   SearchSettings settings;
-  settings.rotation_as = RotationSearch::tangent;
+  settings.rotation_as = RotationCoordinates::tangent;
   const SearchSpace space(scene_, settings);
   const SearchRegion region = space.region(scene_.rest_state(), reach_);
   for (int i = 0; i < 3; ++i) {

@@ -52,7 +52,7 @@ struct SearchCostTest : ::testing::Test {
 
   static SearchSettings tangent() {
     SearchSettings out;
-    out.rotation_as = RotationSearch::tangent;
+    out.rotation_as = RotationCoordinates::tangent;
     return out;
   }
   /// Returns the prior as a search point, `x` metres along the first axis.

@@ -27,7 +27,7 @@ TEST(SearchSpace, QuaternionsAreSearchedComponentByComponent) {
 TEST(SearchSpace, TangentSpaceNeedsOneDimensionLessPerRotation) {
   const Scene scene = test::make_hand_and_box();
   SearchSettings settings;
-  settings.rotation_as = RotationSearch::tangent;
+  settings.rotation_as = RotationCoordinates::tangent;
   EXPECT_EQ(SearchSpace(scene, settings).dimension(), 32);
 }
 
@@ -80,7 +80,7 @@ TEST(SearchSpace, GroupsAreThePosesAndLimbsOfTheModels) {
   EXPECT_EQ(quaternion[6].kind, SearchGroup::Kind::pose);
   EXPECT_EQ(quaternion[6].dimensions, (std::vector<int>{27, 28, 29, 30, 31, 32, 33}));
 
-  settings.rotation_as = RotationSearch::tangent;
+  settings.rotation_as = RotationCoordinates::tangent;
   const auto tangent = SearchSpace(scene, settings).region(scene.rest_state()).groups;
   ASSERT_EQ(tangent.size(), 7u);
   EXPECT_EQ(tangent[0].dimensions, (std::vector<int>{0, 1, 2, 3, 4, 5}));
@@ -88,7 +88,7 @@ TEST(SearchSpace, GroupsAreThePosesAndLimbsOfTheModels) {
   EXPECT_EQ(tangent[6].dimensions, (std::vector<int>{26, 27, 28, 29, 30, 31}));
 }
 
-class BothParametrisations : public testing::TestWithParam<RotationSearch> {};
+class BothParametrisations : public testing::TestWithParam<RotationCoordinates> {};
 
 TEST_P(BothParametrisations, EveryDimensionIsInOneGroup) {
   const Scene scene = test::make_hand_and_box();
@@ -146,7 +146,8 @@ TEST_P(BothParametrisations, StatesHaveUnitQuaternions) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SearchSpace, BothParametrisations,
-                         testing::Values(RotationSearch::quaternion, RotationSearch::tangent));
+                         testing::Values(RotationCoordinates::quaternion,
+                                         RotationCoordinates::tangent));
 
 TEST(SearchSpace, APointOfAnotherSizeIsTheOptimizersMistake) {
   const Scene scene = test::make_hand_and_box();
@@ -160,7 +161,7 @@ TEST(SearchSpace, APointOfAnotherSizeIsTheOptimizersMistake) {
 TEST(SearchSpace, ATangentVectorIsARotationByItsLengthAboutItself) {
   const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});
   SearchSettings settings;
-  settings.rotation_as = RotationSearch::tangent;
+  settings.rotation_as = RotationCoordinates::tangent;
   const SearchSpace space(scene, settings);
   std::mt19937_64 random(3);
   const Eigen::VectorXd prior = test::random_state(scene, random);
@@ -175,12 +176,12 @@ TEST(SearchSpace, ATangentVectorIsARotationByItsLengthAboutItself) {
 TEST(SearchSpace, ModelsThatDoNotMoveKeepWhatThePriorHas) {
   const Scene scene = test::make_hand_and_box();
   SearchSettings settings;
-  for (const auto as : {RotationSearch::quaternion, RotationSearch::tangent}) {
+  for (const auto as : {RotationCoordinates::quaternion, RotationCoordinates::tangent}) {
     settings.rotation_as = as;
     const SearchSpace space(scene, settings, {false, true});
     const Eigen::VectorXd prior = scene.rest_state();
     const SearchRegion region = space.region(prior);
-    ASSERT_EQ(space.dimension(), as == RotationSearch::tangent ? 6 : 7);
+    ASSERT_EQ(space.dimension(), as == RotationCoordinates::tangent ? 6 : 7);
     ASSERT_EQ(region.groups.size(), 1U);
     EXPECT_EQ(std::ssize(region.groups[0].dimensions), space.dimension());
     Eigen::VectorXd point = region.start;

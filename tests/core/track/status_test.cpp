@@ -123,14 +123,14 @@ TEST(Status, FollowsWhatPicturesSayWhateverTheCost) {
   }
 }
 
-TEST(Status, ARecognisedAnswerIsUncertainHoweverUnlikely) {
+TEST(Status, ADetectedAnswerIsUncertainHoweverUnlikely) {
   StatusMonitor monitor({});
-  StatusEvidence evidence{.cost = -100, .probability = 0.01, .visible = 1, .sigma = kUnknown};
-  EXPECT_EQ(monitor.judge(evidence), Status::lost);
-  evidence.recognized = true;
-  EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
-  evidence.visible = 0;
-  EXPECT_EQ(monitor.judge(evidence), Status::lost);
+  StatusMeasures measures{.cost = -100, .probability = 0.01, .visible = 1, .sigma = kUnknown};
+  EXPECT_EQ(monitor.judge(measures), Status::lost);
+  measures.detected = true;
+  EXPECT_EQ(monitor.judge(measures), Status::uncertain);
+  measures.visible = 0;
+  EXPECT_EQ(monitor.judge(measures), Status::lost);
 }
 
 TEST(Status, AsksForMoreJustAfterALossThanBeforeIt) {
@@ -155,12 +155,12 @@ TEST(Status, AConfirmedAnswerNeedsLess) {
   StatusMonitor monitor({});
   judge_by_pictures(monitor, 0.95);
   judge_by_pictures(monitor, 0.01);
-  StatusEvidence evidence{.cost = -100, .probability = 0.5, .visible = 1, .sigma = kUnknown};
-  EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
-  evidence.confirmed = true;
-  EXPECT_EQ(monitor.judge(evidence), Status::tracked);
-  evidence.probability = 0.4;
-  EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
+  StatusMeasures measures{.cost = -100, .probability = 0.5, .visible = 1, .sigma = kUnknown};
+  EXPECT_EQ(monitor.judge(measures), Status::uncertain);
+  measures.confirmed = true;
+  EXPECT_EQ(monitor.judge(measures), Status::tracked);
+  measures.probability = 0.4;
+  EXPECT_EQ(monitor.judge(measures), Status::uncertain);
 }
 
 TEST(Status, OnlyTrackedFramesSayWhatCostsAreUsual) {

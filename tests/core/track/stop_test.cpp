@@ -57,13 +57,13 @@ class OneBatch final : public Optimizer {
 };
 
 /// Looks for the model until it is told to end.
-class EndlessStart final : public Start {
+class EndlessStarter final : public Starter {
  public:
-  explicit EndlessStart(std::atomic<int>& begun) : begun_(begun) {}
+  explicit EndlessStarter(std::atomic<int>& begun) : begun_(begun) {}
 
  private:
   bool do_looks() const override { return true; }
-  void do_find(const StartContext&, std::size_t, const TakePose&) override {
+  void do_find(const StarterContext&, std::size_t, const TakePose&) override {
     ++begun_;
     while (true) check_stop();
   }
@@ -74,7 +74,7 @@ class EndlessStart final : public Start {
 struct Stoppable {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
   std::shared_ptr<Distance> distance = std::make_shared<Distance>(false);
-  std::atomic<int> begun = 0;  ///< searches of EndlessStart
+  std::atomic<int> begun = 0;  ///< searches of EndlessStarter
   OneBatch* optimizer = nullptr;
 
   TrackerParts parts() {
@@ -101,7 +101,7 @@ struct Stoppable {
     endless.judge = std::make_shared<test::SameForAll>(0);
     endless.status.recovery.run = RecoveryRun::background;
     endless.begins_by_looking = true;
-    endless.starts.push_back(std::make_unique<EndlessStart>(begun));
+    endless.starters.push_back(std::make_unique<EndlessStarter>(begun));
     return make(std::move(endless));
   }
 };

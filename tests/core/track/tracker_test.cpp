@@ -245,7 +245,7 @@ TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
 
 TEST(Tracker, LooksAgainFromWhatItFoundFirstWhereNothingWasKnown) {
   TrackedBox fixture;
-  fixture.search.second_look = 0.3;
+  fixture.search.second_search = 0.3;
   SceneTracker tracker = fixture.make(1);
   const Solution first = tracker.track(grey_frame(3));
   EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{210, 90}));
@@ -266,7 +266,7 @@ TEST(Tracker, LooksAgainFromWhatItFoundFirstWhereNothingWasKnown) {
 
 TEST(Tracker, LooksAgainUntilSomethingIsFound) {
   TrackedBox fixture;
-  fixture.search.second_look = 0.3;
+  fixture.search.second_search = 0.3;
   fixture.target->infeasible = true;
   SceneTracker tracker = fixture.make(1);
   tracker.track(grey_frame(0));
@@ -285,7 +285,7 @@ TEST(Tracker, LooksOnceUnlessItIsToldOtherwise) {
 
 TEST(Tracker, SpendsABudgetOfOneOnTheFirstLook) {
   TrackedBox fixture;
-  fixture.search.second_look = 0.9;
+  fixture.search.second_search = 0.9;
   SceneTracker tracker = fixture.make(1, 1);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 1);
   EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{1}));

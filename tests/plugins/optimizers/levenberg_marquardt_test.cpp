@@ -308,7 +308,7 @@ TEST(LevenbergMarquardt, StartsShareTheEvaluationsAndTheBestCounts) {
   RecordingCost cost(12, test::rosenbrock(region, test::hidden_target(region, 3)));
   cost.linearizes = true;
   LevenbergMarquardtParams params;
-  params.starts = 7;
+  params.restarts = 7;
   params.iterations = 2;
   const OptimizerResult result = minimize(cost, region, 100, params);
   EXPECT_EQ(cost.batches.front(), 7);

@@ -20,7 +20,7 @@ using ::testing::ThrowsMessage;
 
 MultiStartParams three_of_twenty() {
   MultiStartParams params;
-  params.starts = 3;
+  params.restarts = 3;
   params.candidates = 20;
   return params;
 }
@@ -58,11 +58,11 @@ TEST(MultiStart, ASmallBudgetSearchesFromAsManyStartsAsItCan) {
 
 TEST(MultiStart, MoreStartsThanCandidatesAreAConfigError) {
   MultiStartParams params = three_of_twenty();
-  params.starts = 21;
+  params.restarts = 21;
   EXPECT_THAT(
       [&] { MultiStart(params, nullptr, "scene.yaml:4:3"); },
       ThrowsMessage<ConfigError>(HasSubstr(
-          "scene.yaml:4:3: multi_start: starts is 21, expected at most the 20 candidates")));
+          "scene.yaml:4:3: multi_start: restarts is 21, expected at most the 20 candidates")));
 }
 
 }  // namespace

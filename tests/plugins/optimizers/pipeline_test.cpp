@@ -140,14 +140,14 @@ TEST_F(PipelineTest, StagesWithoutAnEvaluationArePassedOver) {
   EXPECT_THAT(budgets(), ElementsAre(1));
 }
 
-TEST_F(PipelineTest, ARescueIsLeftOutWhereTheBestCostsNoMoreThanUsual) {
+TEST_F(PipelineTest, AFallbackIsLeftOutWhereTheBestCostsNoMoreThanUsual) {
   for (const double usual : {2.0, 1.9}) {  // the best of stage a costs 2
     calls_.clear();
     stages_.clear();
     add("a", 1, 1, 1, 2);
     add("b", 1, 1);
     add("c", 1, 1);
-    stages_[1].rescue = true;
+    stages_[1].fallback = true;
     test::RecordingCost cost = away_from(3);
     const double infinite = std::numeric_limits<double>::infinity();
     EXPECT_EQ(minimize(cost, {90, infinite, usual}).evaluations, 90);
@@ -157,10 +157,10 @@ TEST_F(PipelineTest, ARescueIsLeftOutWhereTheBestCostsNoMoreThanUsual) {
   }
 }
 
-TEST_F(PipelineTest, WithoutAUsualCostEveryRescueRuns) {
+TEST_F(PipelineTest, WithoutAUsualCostEveryFallbackRuns) {
   add("a", 1, 1);
   add("b", 1, 1);
-  stages_[1].rescue = true;
+  stages_[1].fallback = true;
   test::RecordingCost cost = away_from(0);
   minimize(cost, {10});
   EXPECT_THAT(budgets(), ElementsAre(5, 5));

@@ -229,7 +229,7 @@ TEST_F(BadInputTest, StartOfATableOutsideTheBounds) {
   expect_refused(with("from: {type: file}"), {"scene.yaml:11:", "init.from.file: required key"});
   expect_refused(with("from: landmarks"), {"scene.yaml:11:14: init.from.file: required key"});
   expect_refused(with("from: trut"),
-                 {"scene.yaml:11:14: ", "there is no start 'trut'; did you mean 'truth'?"});
+                 {"scene.yaml:11:14: ", "there is no starter 'trut'; did you mean 'truth'?"});
 }
 
 TEST_F(BadInputTest, StartBehindTheCameras) {

@@ -148,15 +148,15 @@ TEST_F(FitShapeTest, RefusesAnObjectiveThatLooksAtNoPictures) {
                  {"shape: in most of the 8 tracked frames"});
 }
 
-TEST_F(FitShapeTest, FromStartsNeedsOneThatRecognisesAndTheScale) {
-  const Outcome no_start = run(kHand, {"--set", "shape={estimate_s: 0.1, from: starts}"});
+TEST_F(FitShapeTest, FromStartersNeedsOneThatDetectsAndTheScale) {
+  const Outcome no_start = run(kHand, {"--set", "shape={estimate_s: 0.1, from: starters}"});
   EXPECT_NE(no_start.exit_code, 0);
-  EXPECT_THAT(no_start.err, HasSubstr("no start recognises the models"));
+  EXPECT_THAT(no_start.err, HasSubstr("no starter detects the models"));
   const Outcome no_scale =
       run(kHand, {"--set", "init={from: global_search}", "--set",
-                  "shape={estimate_s: 0.1, from: starts, parameters: [index]}"});
+                  "shape={estimate_s: 0.1, from: starters, parameters: [index]}"});
   EXPECT_NE(no_scale.exit_code, 0);
-  EXPECT_THAT(no_scale.err, HasSubstr("starts tell the scale alone"));
+  EXPECT_THAT(no_scale.err, HasSubstr("starters tell the scale alone"));
 }
 
 }  // namespace

@@ -335,7 +335,7 @@ TEST_F(RunTest, SetChangesKeysOfTheScene) {
   const Outcome outcome =
       run(box_scene(),
           {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}", "--set",
-           "budget.evaluations=20", "--set", "recovery.first_starts=1", "--frames", "1"});
+           "budget.evaluations=20", "--set", "recovery.first_restarts=1", "--frames", "1"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(read_text(path("out/run.yaml")), HasSubstr("type: random_search"));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv")))[1], HasSubstr(",20,"));  // evaluations

@@ -39,6 +39,6 @@ done
 grep -q 'my_output: exists already; give another folder' message.txt || fail "$(cat message.txt)"
 "$hypotrack" plugins new model class 2>message.txt && fail "a name was taken that C++ does not allow"
 grep -q "which C++ code cannot use as its own" message.txt || fail "$(cat message.txt)"
-"$hypotrack" plugins new start mine --cuda 2>message.txt && fail "a start has no part for GPUs"
+"$hypotrack" plugins new starter mine --cuda 2>message.txt && fail "a starter has no part for GPUs"
 grep -q "only an objective has a part for GPUs" message.txt || fail "$(cat message.txt)"
 [ -z "$(find . -maxdepth 1 \( -name class -o -name mine -o -name '*.part' \))" ] || fail "something was left"

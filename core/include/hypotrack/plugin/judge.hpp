@@ -71,7 +71,7 @@ HYPOTRACK_API std::span<const MeasureInfo, Measures::kCount> measure_infos();
 /// be too low or too high.
 struct JudgeThresholds {
   double tracked_above = 0.55;
-  double surely_above = 0.75;
+  double certain_above = 0.75;
   double first_above = 0.35;
   double confirmed_above = 0.45;
   double uncertain_above = 0.15;
@@ -79,7 +79,7 @@ struct JudgeThresholds {
   void visit(ParamVisitor& v) {
     v("tracked_above", tracked_above,
       {.help = "tracked from this probability of being right on", .min = 0, .max = 1});
-    v("surely_above", surely_above,
+    v("certain_above", certain_above,
       {.help = "the same just after a loss; less probable frames teach no colours",
        .min = 0,
        .max = 1});

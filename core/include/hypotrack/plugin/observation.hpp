@@ -51,7 +51,8 @@ struct PreviousSolution {
 struct FrameContext {
   /// True until a solution exists: the start is then the scene's given start, perhaps some
   /// centimetres off. A term should trust less what it learns from such a frame. It should learn
-  /// anew from the first one without this flag, which may show the same frame (search.second_look).
+  /// anew from the first one without this flag, which may show the same frame
+  /// (search.second_search).
   bool start_is_guess = false;
   /// True if the search must not assume a motion from the start, as in fixed-lag smoothing, where
   /// one prior covers all frames together. Temporal terms then contribute nothing.

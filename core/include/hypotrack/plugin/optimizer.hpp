@@ -149,7 +149,7 @@ struct Budget {
   std::int64_t evaluations = 0;
   double seconds = std::numeric_limits<double>::infinity();
   /// Expected cost of a good answer, from recent searches. At or below it, an optimizer may skip
-  /// steps that only rescue failed searches. -infinity = unknown.
+  /// steps that are a fallback for failed searches. -infinity = unknown.
   double usual_cost = -std::numeric_limits<double>::infinity();
 };
 

@@ -25,7 +25,7 @@
 #include "hypotrack/plugin/params.hpp"
 #include "hypotrack/plugin/plugin_object.hpp"
 #include "hypotrack/plugin/source.hpp"
-#include "hypotrack/plugin/start.hpp"
+#include "hypotrack/plugin/starter.hpp"
 
 /// The table of plugin kinds: KIND(name, Interface). The loader, the contract tests, CMake and
 /// scripts take their kinds from here; they need each row on a line of its own.
@@ -34,7 +34,7 @@
   KIND(objective, Objective)         \
   KIND(optimizer, Optimizer)         \
   KIND(source, Source)               \
-  KIND(start, Start)                 \
+  KIND(starter, Starter)             \
   KIND(judge, Judge)                 \
   KIND(output, Output)
 
@@ -162,7 +162,7 @@ ProgramPlugin program_plugin(std::string name,
           }};
 }
 
-inline constexpr std::uint32_t kAbiVersion = 25;
+inline constexpr std::uint32_t kAbiVersion = 26;
 
 /// The C interface of a plugin library. The loader compares magic, size, version and tag before it
 /// reads anything else. So the struct must stay plain C and may only grow at the end.

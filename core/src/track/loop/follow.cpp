@@ -22,7 +22,7 @@ Candidate begin_at_start(LoopState& loop, const Frame& frame) {
   const bool several = loop.recovers() && loop.given.is_early();
   Candidate best =
       loop.finder.begin(frame, loop.given.state(),
-                        several ? loop.settings.recovery.first_starts : 1, loop.seed_of(frame));
+                        several ? loop.settings.recovery.first_restarts : 1, loop.seed_of(frame));
   loop.given.count_search();
   return best;
 }
@@ -31,7 +31,7 @@ Candidate begin_at_start(LoopState& loop, const Frame& frame) {
 void begin_again(LoopState& loop, const Frame& frame, Candidate& best) {
   constexpr int kSeveralEvery = 5;  // searches
   const bool several = loop.given.count_search() % kSeveralEvery == 0;
-  const int starts = several ? loop.settings.recovery.first_starts : 1;
+  const int starts = several ? loop.settings.recovery.first_restarts : 1;
   if (loop.finder.begin_again(frame, loop.given.state(), starts, loop.seed_of(frame, 9), best))
     loop.trail.begin_anew();
 }

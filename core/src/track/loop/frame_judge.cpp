@@ -51,11 +51,11 @@ std::vector<Status> FrameJudge::judge(const Frame& frame, const Candidate& best,
   solution.cost = best.found.cost;
   solution.evaluations = best.found.evaluations;
   solution.probabilities = best.probabilities;
-  const StatusEvidence shared = shared_evidence(frame, best, solution);
+  const StatusMeasures shared = shared_measures(frame, best, solution);
   for (std::size_t m = 0; m < loop_.tracks.size(); ++m) {
     // A detector that sees the model there confirms it as another search does.
     if (best.unseen[m] <= 0) loop_.tracks[m].see(frame.time);
-    solution.models[m] = loop_.tracks[m].judge(evidence_of(m, frame, best, solution, shared));
+    solution.models[m] = loop_.tracks[m].judge(measures_of(m, frame, best, solution, shared));
     loop_.given.conclude(frame.index, m, best.found.state, solution.models[m] == Status::tracked);
   }
   const std::vector<Status> judgement = solution.models;
@@ -64,34 +64,33 @@ std::vector<Status> FrameJudge::judge(const Frame& frame, const Candidate& best,
   return judgement;
 }
 
-StatusEvidence FrameJudge::shared_evidence(const Frame& frame, const Candidate& best,
+StatusMeasures FrameJudge::shared_measures(const Frame& frame, const Candidate& best,
                                            Solution& solution) {
-  StatusEvidence evidence{.cost = best.found.cost, .sigma = kUnknown};
-  if (!best.answers()) return evidence;
+  StatusMeasures measures{.cost = best.found.cost, .sigma = kUnknown};
+  if (!best.answers()) return measures;
   FrameSearch& search = loop_.finder.search();
   search.show(best.shown);
   const Eigen::VectorXd drawn = search.drawn(best.found.state);
-  evidence.visible = search.tiles().visible_share(best.found.state);
-  evidence.foreground_overlap = search.tiles().foreground_overlap(frame, drawn);
+  measures.visible = search.tiles().visible_share(best.found.state);
+  measures.foreground_overlap = search.tiles().foreground_overlap(frame, drawn);
   if (uncertainty_) {
     const ProfiledPart part("sigmas");
     solution.sigma = uncertainty_->of(search.cost(), drawn);
     solution.evaluations += uncertainty_->evaluations();
   }
-  return evidence;
+  return measures;
 }
 
-StatusEvidence FrameJudge::evidence_of(std::size_t model, const Frame& frame, const Candidate& best,
-                                       const Solution& solution, StatusEvidence shared) const {
-  StatusEvidence own = shared;
+StatusMeasures FrameJudge::measures_of(std::size_t model, const Frame& frame, const Candidate& best,
+                                       const Solution& solution, StatusMeasures shared) const {
+  StatusMeasures own = shared;
   if (!best.shown[model]) own.cost = kInfinite;
   own.probability = best.probabilities[model];
   own.sigma = loop_.tracks[model].mean_sigma(solution.sigma);
-  own.recognized = best.is_recognized(model);
+  own.detected = best.is_detected(model);
   own.confirmed = best.confirmed[model] || best.unseen[model] <= 0;
-  // What has left the pictures takes more evidence to be back.
-  const bool is_back =
-      own.probability >= loop_.settings.thresholds.confirmed_above || own.recognized;
+  // What has left the pictures takes higher measures to be back.
+  const bool is_back = own.probability >= loop_.settings.thresholds.confirmed_above || own.detected;
   const bool is_found = best.answers() && best.shown[model] && is_back;
   const bool is_gone =
       loop_.recovers() && !is_found && loop_.tracks.departure().is_gone(model, frame.time);

@@ -39,9 +39,9 @@ class FrameJudge {
 
  private:
   /// Collects the measurements that all models share, and the sigmas of the solution.
-  StatusEvidence shared_evidence(const Frame& frame, const Candidate& best, Solution& solution);
-  StatusEvidence evidence_of(std::size_t model, const Frame& frame, const Candidate& best,
-                             const Solution& solution, StatusEvidence shared) const;
+  StatusMeasures shared_measures(const Frame& frame, const Candidate& best, Solution& solution);
+  StatusMeasures measures_of(std::size_t model, const Frame& frame, const Candidate& best,
+                             const Solution& solution, StatusMeasures shared) const;
   /// Flags landmarks that something hides. Calls models uncertain whose hidden landmarks may have
   /// moved far: the search goes on from them, as the part that pictures show is right.
   void doubt_hidden(const Frame& frame, const Candidate& best, Solution& solution);

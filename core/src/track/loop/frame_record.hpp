@@ -9,7 +9,7 @@
 #include "hypotrack/plugin/output.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/frame_search.hpp"
-#include "track/search_trace.hpp"
+#include "track/optimizer_trace.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

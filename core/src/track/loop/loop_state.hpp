@@ -22,7 +22,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What the steps of the tracker's loop share.
 struct LoopState {
-  /// Moves the optimizer and the starts out of `parts`. The scene must outlive the object.
+  /// Moves the optimizer and the starters out of `parts`. The scene must outlive the object.
   LoopState(const Scene& scene, TrackerParts& parts, Eigen::VectorXd start, std::uint64_t seed);
 
   const Scene& scene;

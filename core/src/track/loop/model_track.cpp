@@ -41,8 +41,8 @@ ModelTrack::ModelTrack(const Scene& scene, std::size_t model, Eigen::Index first
   kept_ = start.segment(item.offset, item.model->dimension());
 }
 
-Status ModelTrack::judge(const StatusEvidence& evidence) {
-  const Status status = monitor_.judge(evidence);
+Status ModelTrack::judge(const StatusMeasures& measures) {
+  const Status status = monitor_.judge(measures);
   move(event_of(status));
   return status;
 }

@@ -24,7 +24,7 @@ class ModelTrack {
   Phase phase() const { return phase_; }
 
   /// Judges the pose of a frame. Returns the model's status.
-  Status judge(const StatusEvidence& evidence);
+  Status judge(const StatusMeasures& measures);
   /// Returns the probability that a pose needs to count as right now.
   double needed() const { return monitor_.needed(); }
   /// Returns the threshold above which a cost is unusual (StatusMonitor::usual_cost()).

@@ -18,7 +18,7 @@ void forget_contradicted(LoopState& loop, const ModelFlags& checked, Candidate& 
   }
 }
 
-/// Returns whether pictures support all models where starts that recognise them see them.
+/// Returns whether pictures support all models where starters that detect them see them.
 bool is_agreed(const LoopState& loop, const Candidate& best) {
   for (std::size_t m = 0; m < loop.tracks.size(); ++m)
     if (!(best.unseen[m] <= 0 && best.probabilities[m] >= loop.settings.thresholds.tracked_above))
@@ -42,7 +42,7 @@ void recover(LoopState& loop, const Frame& frame, const RecoveryRequest& request
   if (request.contradicts) forget_contradicted(loop, request.sought, best);
   // From here on it is as if this pose had been given as the start.
   if (is_first_guess(loop, best))
-    loop.finder.begin_again(frame, best.found.state, loop.settings.recovery.first_starts,
+    loop.finder.begin_again(frame, best.found.state, loop.settings.recovery.first_restarts,
                             loop.seed_of(frame, 8), best);
 }
 

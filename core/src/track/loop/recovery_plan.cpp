@@ -69,7 +69,7 @@ void RecoveryPlan::check_elsewhere(const LoopState& loop, const Frame& frame,
   if (!(interval > 0 && frame.time - checked_ >= interval)) return;
   checked_ = frame.time;
   const std::size_t model = checks_++ % loop.tracks.size();
-  request.contradicts = request.sought[model] = loop.finder.recognizes(model);
+  request.contradicts = request.sought[model] = loop.finder.detects(model);
 }
 
 void RecoveryPlan::seek_nearby(const LoopState& loop, const Candidate& best,

@@ -43,7 +43,7 @@ void try_other_poses(LoopState& loop, const Frame& frame, std::size_t model, Can
   loop.finder.recover(frame, request, best, loop.seed_of(frame, part));
   const std::string why = "searches from around it end in different poses";
   loop.given.doubt(model, why);
-  if (!(best.probabilities[model] >= loop.settings.thresholds.surely_above))
+  if (!(best.probabilities[model] >= loop.settings.thresholds.certain_above))
     loop.leave_start(model, why);
 }
 

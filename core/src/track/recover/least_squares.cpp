@@ -17,7 +17,7 @@ constexpr std::array kDampings{0.1, 1.0, 10.0, 100.0};  // factors of the steps 
 /// Spreads bound a step; finite differences are a share of them.
 SearchSettings settings() {
   SearchSettings out;
-  out.rotation_as = RotationSearch::tangent;
+  out.rotation_as = RotationCoordinates::tangent;
   out.position = 0.03;
   out.rotation = 20 * kDegree;
   out.angle = 30 * kDegree;

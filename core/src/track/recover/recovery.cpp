@@ -143,7 +143,7 @@ std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
   if (last.before.size() > 0)
     for (std::size_t m = 0; m < task.hidden.size(); ++m)
       if (m != task.model && !task.hidden[m]) out.push_back(beside(task, m));
-  SearchedPlaces& searched = (task.held.empty() ? searched_ : searched_held_)[task.model];
+  EmptyPlaces& searched = (task.held.empty() ? searched_ : searched_held_)[task.model];
   if (last.seconds < kPlaceRemembered && searched.is_worth(task.frame, was))
     out.push_back({was, own(last.state), kNearLast, turn});
   const bool is_known = std::isfinite(last.seconds);

@@ -11,16 +11,16 @@
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/scene.hpp"
-#include "hypotrack/plugin/start.hpp"
+#include "hypotrack/plugin/starter.hpp"
 #include "track/color/background_model.hpp"
 #include "track/frame_search.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/depth_weights.hpp"
+#include "track/recover/empty_places.hpp"
 #include "track/recover/held_models.hpp"
 #include "track/recover/place_finder.hpp"
 #include "track/recover/pose_search.hpp"
 #include "track/recover/recovery_settings.hpp"
-#include "track/recover/searched_places.hpp"
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
@@ -109,8 +109,8 @@ class Recovery {
   std::vector<std::unique_ptr<PoseSearch>> searches_;
   std::vector<PlaceFinder> finders_;
   std::vector<std::vector<cv::Vec3f>> surfaces_;  ///< colours of each model's texture
-  std::vector<SearchedPlaces> searched_;          ///< by model
-  std::vector<SearchedPlaces> searched_held_;     ///< for searches with what it holds
+  std::vector<EmptyPlaces> searched_;             ///< by model
+  std::vector<EmptyPlaces> searched_held_;        ///< for searches with what it holds
   std::optional<DepthWeights> depths_;            ///< for models whose colours are unknown
   std::array<BackgroundModel, 2> backgrounds_;    ///< of the reduced pictures
   std::vector<bool> in_view_;                     ///< by model, when it was looked for last

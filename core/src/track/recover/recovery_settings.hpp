@@ -23,7 +23,7 @@ struct RecoverySettings {
   RecoveryRun run = RecoveryRun::frame;
   ConfigNode from;
   double check = 1;
-  int first_starts = 8;
+  int first_restarts = 8;
   int places = 6;
   int hypotheses = 2000;
   int refined = 80;
@@ -38,15 +38,16 @@ struct RecoverySettings {
       {.help = "frame: within the frame that is lost; background: in a thread of its own, while "
                "frames are answered at once as lost (results then depend on timing)"});
     v("from", from,
-      {.help = "starts that look for lost models, as in init.from; default: those of init.from, or "
-               "global_search if these give a state"});
+      {.help =
+           "starters that look for lost models, as in init.from; default: those of init.from, or "
+           "global_search if these give a state"});
     v("check_s", check,
       {.help = "time between checks by detectors whether a tracked model is elsewhere; 0: never",
        .min = 0,
        .max = 1e6,
        .unit = "s"});
-    v("first_starts", first_starts,
-      {.help = "starts of the first frame, around the given one", .min = 1, .max = 100});
+    v("first_restarts", first_restarts,
+      {.help = "searches of the first frame, from around the given start", .min = 1, .max = 100});
     v("places", places, {.help = "places looked at per lost frame", .min = 1, .max = 100});
     v("hypotheses", hypotheses,
       {.help = "poses evaluated per place, at a coarse tile", .min = 8, .max = 1e6});

@@ -25,7 +25,8 @@ class DeviceStereoColor final : public cuda::PixelObjective<ColorTerm<kBilinear,
     Term term{};
     for (int i = 0; i < 2; ++i) term.features[i] = maps_.of_view(i);
     term.curve = {static_cast<float>(beta_of(settings_, *observation.header)) * Term::kUnit,
-                  static_cast<float>(settings_.charge), settings_.falloff == Falloff::gaussian};
+                  static_cast<float>(settings_.coverage_penalty),
+                  settings_.falloff == Falloff::gaussian};
     term.tolerance = static_cast<float>(settings_.r);
     term.direction = settings_.direction;
     term.aggregation = settings_.aggregation;

@@ -88,7 +88,7 @@ TEST(StereoColor, DefaultsAreThePapers) {
   const Params params;
   EXPECT_EQ(params.beta, 100);
   EXPECT_EQ(params.falloff, Falloff::exponential);
-  EXPECT_EQ(params.charge, 0);
+  EXPECT_EQ(params.coverage_penalty, 0);
   EXPECT_EQ(params.gray_weight, 1);
   EXPECT_EQ(params.beta_by_difference, 0);
   EXPECT_DOUBLE_EQ(params.r, 0.003);
@@ -104,12 +104,12 @@ Params read(std::string_view yaml) {
 
 TEST(StereoColor, ParametersAreReadInTheUnitsOfTheirKeys) {
   const Params p = read(
-      "{beta: 25, falloff: gaussian, charge: 0.1, w_t: 0.2, r_mm: 5, color_space: lab, "
+      "{beta: 25, falloff: gaussian, coverage_penalty: 0.1, w_t: 0.2, r_mm: 5, color_space: lab, "
       "distinctiveness: none,\n"
       " aggregation: sum_per_sqrt, direction: both, lookup: bilinear, use_mask: false}");
   EXPECT_EQ(p.beta, 25);
   EXPECT_EQ(p.falloff, Falloff::gaussian);
-  EXPECT_EQ(p.charge, 0.1);
+  EXPECT_EQ(p.coverage_penalty, 0.1);
   EXPECT_EQ(p.w_t, 0.2);
   EXPECT_DOUBLE_EQ(p.r, 0.005);
   EXPECT_EQ(p.color_space, ColorSpace::lab);

@@ -95,11 +95,11 @@ TEST(Peak, IsAtTheTruthInBothDirectionsAndBilinear) {
   expect_peak_at_truth(pair, params);
 }
 
-TEST(Peak, IsAtTheTruthWithACharge) {
+TEST(Peak, IsAtTheTruthWithACoveragePenalty) {
   Params params;
   params.beta = 60;
   params.falloff = Falloff::gaussian;
-  params.charge = 0.1;
+  params.coverage_penalty = 0.1;
   params.direction = Direction::both;
   params.lookup = Lookup::bilinear;
   expect_peak_at_truth(RenderedPair(), params);

@@ -49,7 +49,7 @@ TEST(Pixel, ColorConsistencyIsTheSmallerWeightTimesTheExponential) {
   EXPECT_NEAR(s(l, r, 0.0f), 0.25, 1e-7);
 }
 
-TEST(Pixel, ColorConsistencyFallsWithTheSquareAndPaysTheCharge) {
+TEST(Pixel, ColorConsistencyFallsWithTheSquareAndPaysTheCoveragePenalty) {
   using stereo_color::scalar::color_consistency;
   const stereo_color::scalar::ColorSample<float> l{0.5f, 0.4f, 0.3f, 0.6f};
   const stereo_color::scalar::ColorSample<float> r{0.51f, 0.38f, 0.32f, 0.25f};

@@ -94,7 +94,7 @@ double score(const Observation& observation, const RenderedHypothesis& hypothesi
       const double scaled = params.beta * (l - r).head<3>().norm();
       const double alike =
           std::exp(params.falloff == Falloff::gaussian ? -scaled * scaled : -scaled);
-      sum += std::min(l[3], r[3]) * (alike - params.charge);
+      sum += std::min(l[3], r[3]) * (alike - params.coverage_penalty);
     }
   }
   if (params.aggregation == Aggregation::mean_seen) return seen > 0 ? sum / seen : 0;

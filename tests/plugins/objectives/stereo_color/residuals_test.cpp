@@ -55,15 +55,15 @@ TEST(Residuals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {
   }
 }
 
-TEST(Residuals, SquaredAddUpToTheCostWithEveryFalloffAndCharge) {
+TEST(Residuals, SquaredAddUpToTheCostWithEveryFalloffAndCoveragePenalty) {
   for (const auto falloff : {Falloff::exponential, Falloff::gaussian}) {
-    for (const double charge : {0.0, 0.05}) {
+    for (const double coverage_penalty : {0.0, 0.05}) {
       for (const auto direction : {Direction::left_to_right, Direction::both}) {
-        SCOPED_TRACE(testing::Message() << static_cast<int>(falloff) << " " << charge);
+        SCOPED_TRACE(testing::Message() << static_cast<int>(falloff) << " " << coverage_penalty);
         Params params;
         params.beta = 5;
         params.falloff = falloff;
-        params.charge = charge;
+        params.coverage_penalty = coverage_penalty;
         params.direction = direction;
         params.lookup = Lookup::bilinear;
         expect_cost_as_squares({.mask = true, .size = 96}, params);
@@ -159,7 +159,7 @@ TEST(Residuals, HaveSlopesThatAreTheirDerivativesByDepth) {
   expect_slopes_like_derivatives(params);
   params.falloff = Falloff::gaussian;
   expect_slopes_like_derivatives(params);
-  params.charge = 0.1;
+  params.coverage_penalty = 0.1;
   expect_slopes_like_derivatives(params);
 }
 

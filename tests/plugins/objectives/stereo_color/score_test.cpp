@@ -76,14 +76,14 @@ TEST(Score, IsTheReferencesForOtherParameters) {
   expect_like_reference({.seed = 10}, params);
 }
 
-TEST(Score, IsTheReferencesForEveryFalloffAndCharge) {
+TEST(Score, IsTheReferencesForEveryFalloffAndCoveragePenalty) {
   for (const auto falloff : {Falloff::exponential, Falloff::gaussian}) {
-    for (const double charge : {0.0, 0.1}) {
-      SCOPED_TRACE(testing::Message() << static_cast<int>(falloff) << " " << charge);
+    for (const double coverage_penalty : {0.0, 0.1}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(falloff) << " " << coverage_penalty);
       Params params;
       params.beta = 10;
       params.falloff = falloff;
-      params.charge = charge;
+      params.coverage_penalty = coverage_penalty;
       expect_like_reference({.size = 96}, params);
     }
   }
@@ -188,16 +188,16 @@ TEST(Score, OfFlatTilesIsCountedByHand) {
   EXPECT_NEAR(flat_cost(pair, Aggregation::sum_per_sqrt), -s * seen / 32, 1e-4 * s * seen / 32);
 }
 
-TEST(Score, OfPixelsLessAlikeThanTheChargeIsACost) {
+TEST(Score, OfPixelsLessAlikeThanTheCoveragePenaltyIsACost) {
   const FlatPair pair(3);
   Params params;
   params.distinctiveness = Distinctiveness::none;
   const double s = std::exp(-100 * std::sqrt(3.0) * 3 / 255), seen = 22 * 32;
-  for (const double charge : {s / 2, s, 2 * s}) {
-    params.charge = charge;
+  for (const double coverage_penalty : {s / 2, s, 2 * s}) {
+    params.coverage_penalty = coverage_penalty;
     StereoColor objective(params);
     objective.prepare(pair.observation);
-    EXPECT_NEAR(objective.cost(pair.hypothesis()), (charge - s) * seen, 1e-4 * s * seen);
+    EXPECT_NEAR(objective.cost(pair.hypothesis()), (coverage_penalty - s) * seen, 1e-4 * s * seen);
   }
 }
 
