@@ -15,8 +15,8 @@
 #include "lab/bench/bench_table.hpp"
 #include "lab/bench/frames.hpp"
 #include "lab/bench/measure.hpp"
+#include "messages.hpp"
 #include "progress.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

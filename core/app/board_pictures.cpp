@@ -12,7 +12,7 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 #include "live_pairs/status_line.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -26,7 +26,7 @@
 #include "hypotrack/plugin/plugin.hpp"
 #include "interrupt.hpp"
 #include "live_pairs/take_pairs.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

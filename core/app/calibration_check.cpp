@@ -1,5 +1,3 @@
-#include "calibration_check.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +8,10 @@
 #include "board_check.hpp"
 #include "board_pictures.hpp"
 #include "calibrate/check_reach.hpp"
+#include "calibration_output.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -6,12 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "calibration_check.hpp"
 #include "calibration_output.hpp"
 #include "camera_options.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -4,11 +4,10 @@
 
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/error.hpp"
-#include "notes.hpp"
+#include "messages.hpp"
 #include "output/run_output.hpp"
 #include "session/opened_scene.hpp"
 #include "start_drawing.hpp"
-#include "tell.hpp"
 #include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::app {

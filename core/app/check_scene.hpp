@@ -10,6 +10,8 @@
 #include "base/kept_results.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/plugin/plugin.hpp"
+#include "hypotrack/plugin/source.hpp"
+#include "track/loop/scene_tracker.hpp"
 
 namespace hypotrack::app {
 
@@ -35,5 +37,12 @@ CheckedScene check_scene(const std::filesystem::path& file, std::span<const std:
                          PluginLoader& plugins,
                          const std::optional<std::filesystem::path>& draw = std::nullopt,
                          FirstFrames* first_frames = nullptr);
+
+/// Prints notes on a scene that has no error but looks mistaken in its first usable frame.
+void tell_notes(const Source& source, const SceneTracker& tracker, const Frame& first);
+
+/// Prints what is wrong with the pictures or times of the first frames. `first` was read already;
+/// the next ones are read from the source.
+void tell_faults(Source& source, SceneTracker& tracker, const Frame& first);
 
 }  // namespace hypotrack::app

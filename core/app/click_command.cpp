@@ -11,11 +11,10 @@
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/pose.hpp"
+#include "messages.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "session/opened_scene.hpp"
-#include "tell.hpp"
-#include "window/display.hpp"
-#include "window/load_window.hpp"
+#include "window/window.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -23,9 +23,9 @@
 #include "lab/study/study_file.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
+#include "messages.hpp"
 #include "progress.hpp"
 #include "run/crew/crew.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

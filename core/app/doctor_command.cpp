@@ -12,10 +12,8 @@
 
 #include "base/machine.hpp"
 #include "commands.hpp"
-#include "doctor/cameras.hpp"
-#include "doctor/plugin_checks.hpp"
+#include "doctor/check.hpp"
 #include "doctor/probe.hpp"
-#include "doctor/table.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
 #include "lab_commands.hpp"

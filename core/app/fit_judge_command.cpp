@@ -12,9 +12,9 @@
 #include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
 #include "lab/judge/pose_sequences.hpp"
+#include "messages.hpp"
 #include "plugin/plugin_call.hpp"
 #include "progress.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -12,11 +12,11 @@
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
+#include "messages.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/shape_estimate.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "hypotrack/api/error.hpp"
+#include "messages.hpp"
 #include "output/recording_writer.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 

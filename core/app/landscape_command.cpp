@@ -8,7 +8,7 @@
 #include "interrupt.hpp"
 #include "lab/landscape/landscape_files.hpp"
 #include "lab/landscape/landscape_frame.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

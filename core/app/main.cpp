@@ -14,7 +14,6 @@
 #include "lab_commands.hpp"
 #include "messages.hpp"
 #include "plugin/crash_report.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "output/summary.hpp"
 
@@ -21,5 +25,12 @@ std::string summary_in(const std::string& log);
 inline constexpr const char* kInterruptedEarly =
     "interrupted before the first frame; nothing was written";
 inline constexpr const char* kInterruptedLate = "interrupted; the files hold the frames so far";
+
+/// Prints to stderr. If that fails, as on a closed terminal, the text is lost and the program goes
+/// on.
+template <class... T>
+void tell(fmt::format_string<T...> format, T&&... values) {
+  std::fputs(fmt::format(format, std::forward<T>(values)...).c_str(), stderr);
+}
 
 }  // namespace hypotrack::app

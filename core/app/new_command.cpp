@@ -20,11 +20,8 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/text.hpp"
 #include "interrupt.hpp"
-#include "new_scene/box_size.hpp"
-#include "new_scene/find_recording.hpp"
-#include "new_scene/questions.hpp"
+#include "messages.hpp"
 #include "new_scene/scene_request.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -10,8 +10,6 @@
 #include "base/text_file.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
-#include "new_plugin/example_recording.hpp"
-#include "new_plugin/guide.hpp"
 #include "new_plugin/plugin_files.hpp"
 
 namespace hypotrack::app {

@@ -1,11 +1,10 @@
-#include "notes.hpp"
-
 #include <optional>
 #include <set>
 #include <string>
 
 #include "camera/pair_check.hpp"
-#include "tell.hpp"
+#include "check_scene.hpp"
+#include "messages.hpp"
 #include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::app {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "commands.hpp"
 #include "lab/report/report.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

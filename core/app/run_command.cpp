@@ -18,7 +18,6 @@
 #include "run/run_scene.hpp"
 #include "run_several.hpp"
 #include "run_viewers.hpp"
-#include "tell.hpp"
 #include "viewing/live_run.hpp"
 
 namespace hypotrack::app {

@@ -21,7 +21,6 @@
 #include "progress.hpp"
 #include "run/crew/crew.hpp"
 #include "session/scene_file.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

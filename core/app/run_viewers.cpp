@@ -6,10 +6,9 @@
 
 #include "hypotrack/api/error.hpp"
 #include "lab_commands.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 #include "viewing/preview.hpp"
-#include "window/display.hpp"
-#include "window/process_window.hpp"
+#include "window/window.hpp"
 
 namespace hypotrack::app {
 namespace {

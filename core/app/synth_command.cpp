@@ -10,11 +10,11 @@
 #include "hypotrack/api/error.hpp"
 #include "interrupt.hpp"
 #include "keeping_frames.hpp"
+#include "messages.hpp"
 #include "output/recording_writer.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
-#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {

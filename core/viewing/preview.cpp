@@ -16,7 +16,7 @@
 #include "viewing/preview_picture.hpp"
 #include "viewing/view_drawing.hpp"
 #include "viewing/yield_to_others.hpp"
-#include "window/display.hpp"
+#include "window/window.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,11 +1,10 @@
-#include "window/display.hpp"
-
 #include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
 
 #include "hypotrack/api/error.hpp"
+#include "window/window.hpp"
 
 namespace hypotrack {
 namespace {

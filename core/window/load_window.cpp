@@ -1,5 +1,3 @@
-#include "window/load_window.hpp"
-
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -7,6 +5,7 @@
 
 #include "base/installation.hpp"
 #include "hypotrack/api/error.hpp"
+#include "window/window.hpp"
 
 namespace hypotrack {
 

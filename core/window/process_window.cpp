@@ -1,5 +1,3 @@
-#include "window/process_window.hpp"
-
 #include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -15,6 +13,7 @@
 #include "base/subprocess.hpp"
 #include "hypotrack/api/error.hpp"
 #include "plugin/folders.hpp"
+#include "window/window.hpp"
 #include "window/window_messages.hpp"
 
 namespace hypotrack {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 #include <string>
 
 namespace hypotrack {
@@ -28,5 +29,20 @@ struct WindowContent {
 /// `hypotrack_window` under the name kShowWindow. Throws cv::Exception if there is no display.
 using ShowWindow = void (*)(const WindowContent& content);
 inline constexpr const char* kShowWindow = "hypotrack_show_window";
+
+/// Loads the module that shows windows. Throws DeviceError if that is not possible.
+ShowWindow load_window();
+
+/// Shows a window by a process of its own, so that a toolkit of windows that fails or loses its
+/// display does not end this program. Clicks are not told of. Throws DeviceError if that process
+/// fails, std::system_error if it cannot be started.
+void show_in_process(const WindowContent& content);
+
+/// Throws DeviceError if no window can be shown. `instead` says what the user can do then.
+void check_display(const std::string& instead);
+
+/// Returns the size of the screen in pixels, of all monitors together; that of a small screen if it
+/// is unknown.
+cv::Size screen_size();
 
 }  // namespace hypotrack

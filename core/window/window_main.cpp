@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "base/standard_streams.hpp"
-#include "window/load_window.hpp"
+#include "window/window.hpp"
 #include "window/window_messages.hpp"
 
 namespace hypotrack {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -18,6 +19,14 @@ void write_landscape(const Landscape& landscape, const std::string& title,
 std::string slices_csv(const Landscape& landscape);
 /// Returns the lines of pairs.csv: two parameters with unit and offset, and a column per curve.
 std::string pairs_csv(const Landscape& landscape);
+
+}  // namespace internal
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Draws a curve of a landscape as SVG: a panel per parameter, then one per pair of them. Each
+/// panel has the range of its own costs; a dashed line or a cross is the centre, a dot the lowest
+/// cost. Infeasible points are left out.
+std::string landscape_svg(const Landscape& landscape, std::size_t curve, const std::string& title);
 
 }  // namespace internal
 }  // namespace hypotrack

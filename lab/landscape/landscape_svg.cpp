@@ -1,5 +1,3 @@
-#include "lab/landscape/landscape_svg.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lab/landscape/landscape_files.hpp"
 #include "lab/svg.hpp"
 
 namespace hypotrack::internal {

@@ -4,7 +4,7 @@
 
 #include "hypotrack/api/solution.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
-#include "lab/report/replay_shape.hpp"
+#include "lab/report/replay.hpp"
 
 namespace hypotrack::internal {
 namespace {

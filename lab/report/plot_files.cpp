@@ -1,5 +1,3 @@
-#include "lab/report/plot_files.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,6 +11,7 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 #include "lab/json_file.hpp"
+#include "lab/report/page.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -10,7 +10,6 @@
 #include "hypotrack/plugin/kinematics.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
-#include "lab/report/replay_shape.hpp"
 
 namespace hypotrack::internal {
 namespace {

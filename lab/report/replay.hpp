@@ -9,6 +9,7 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/api/scene.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack {
@@ -59,6 +60,16 @@ class ReplayCollector {
 /// Frames of the longest replay that shows every frame. A replay of a longer run shows every k-th
 /// frame.
 inline constexpr std::size_t kMostReplayFrames = 1000;
+
+}  // namespace internal
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Returns a model's mesh and skeleton in the format of ReplayCollector::shapes().
+nlohmann::ordered_json replay_shape(const Model& model);
+
+/// Returns pairs of landmarks to join by lines, each with the nearest one towards the root.
+/// Landmarks of one bone form a chain from its origin outwards.
+std::vector<std::pair<int, int>> skeleton_edges(const ModelData& data);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -1,11 +1,10 @@
-#include "lab/report/replay_shape.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "hypotrack/plugin/kinematics.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
+#include "lab/report/replay.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -11,7 +11,6 @@
 #include "lab/json_file.hpp"
 #include "lab/report/change_data.hpp"
 #include "lab/report/page.hpp"
-#include "lab/report/plot_files.hpp"
 #include "lab/report/report_data.hpp"
 #include "lab/report/study_data.hpp"
 #include "lab/report/table_data.hpp"

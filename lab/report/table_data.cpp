@@ -11,7 +11,6 @@
 #include "lab/json_file.hpp"
 #include "lab/report/cells.hpp"
 #include "lab/report/number_json.hpp"
-#include "lab/report/table_notes.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "base/exported.hpp"
+#include "lab/report/cells.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
@@ -26,6 +30,16 @@ nlohmann::ordered_json table_data(const StudyData& study);
 /// with a row per run, with all digits. Throws OutputError.
 void write_table_files(const StudyData& study, const nlohmann::ordered_json& tables,
                        const nlohmann::ordered_json& plots, const std::filesystem::path& directory);
+
+}  // namespace internal
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Explains the marks of a table whose rows are compared within each column, `comparisons` of them.
+/// Warns if the seeds are too few to separate anything.
+std::string note_on_tests(const std::vector<StudyCell>& cells, std::size_t comparisons);
+
+/// Names the cells with runs that are the same bit by bit and count as one. Empty if none has.
+std::string note_on_identical_runs(const std::vector<StudyCell>& cells);
 
 }  // namespace internal
 }  // namespace hypotrack

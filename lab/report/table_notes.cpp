@@ -1,5 +1,3 @@
-#include "lab/report/table_notes.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +5,7 @@
 
 #include "lab/report/power.hpp"
 #include "lab/report/significance.hpp"
+#include "lab/report/table_data.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -19,8 +19,8 @@
 #include "hypotrack/api/error.hpp"
 #include "made_up_frame.hpp"
 #include "observations.hpp"
-#include "on_device.hpp"
 #include "params.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {

@@ -18,7 +18,7 @@
 #include "hypotrack/api/error.hpp"
 #include "made_up_frame.hpp"
 #include "observations.hpp"
-#include "on_device.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::skin {
 namespace {

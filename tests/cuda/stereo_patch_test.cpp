@@ -14,8 +14,8 @@
 #include "hypotrack/api/error.hpp"
 #include "made_up_frame.hpp"
 #include "observations.hpp"
-#include "on_device.hpp"
 #include "patch_pair.hpp"
+#include "settings.hpp"
 #include "volume.hpp"
 
 namespace hypotrack::stereo_patch {

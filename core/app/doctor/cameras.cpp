@@ -1,5 +1,3 @@
-#include "doctor/cameras.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
@@ -11,6 +9,8 @@
 #include <string>
 #include <system_error>
 #include <vector>
+
+#include "doctor/check.hpp"
 
 namespace hypotrack::doctor {
 namespace {

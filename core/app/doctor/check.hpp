@@ -2,8 +2,11 @@
 
 #include <array>
 #include <cstddef>
+#include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hypotrack::doctor {
 
@@ -26,5 +29,20 @@ struct Check {
 
 /// Remedy for a missing part of hypotrack itself.
 inline constexpr const char* kInstallCompletely = "build or install hypotrack completely";
+
+/// Lists video devices with their names. `devices` is /dev, `classes` /sys/class/video4linux.
+Check check_cameras(const std::filesystem::path& devices, const std::filesystem::path& classes);
+
+/// Checks the plugin folders and opens every plugin in a child process.
+std::vector<Check> check_plugins(std::span<const std::filesystem::path> extra_folders);
+
+/// Returns true if nothing is wrong with what every run needs.
+bool is_ready(std::span<const Check> checks);
+
+/// Formats a line per check, with a remedy below each problem, and a conclusion.
+std::string text_of(std::span<const Check> checks);
+
+/// Formats the checks as JSON: `ready`, and per check its name, state, needed, found and fix.
+std::string json_of(std::span<const Check> checks);
 
 }  // namespace hypotrack::doctor

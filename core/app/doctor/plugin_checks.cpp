@@ -1,5 +1,3 @@
-#include "doctor/plugin_checks.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "doctor/check.hpp"
 #include "hypotrack/api/error.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/inspect.hpp"

@@ -1,10 +1,10 @@
-#include "doctor/table.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string_view>
+
+#include "doctor/check.hpp"
 
 namespace hypotrack::doctor {
 namespace {

@@ -8,7 +8,7 @@
 #include "hypotrack/api/error.hpp"
 #include "live_pairs/enter_key.hpp"
 #include "live_pairs/status_line.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {

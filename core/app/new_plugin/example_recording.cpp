@@ -1,5 +1,3 @@
-#include "new_plugin/example_recording.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +5,7 @@
 
 #include "base/text_file.hpp"
 #include "hypotrack/api/media.hpp"
+#include "new_plugin/plugin_files.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack::app {

@@ -1,10 +1,9 @@
-#include "new_plugin/guide.hpp"
-
 #include <filesystem>
 
 #include "base/installation.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
+#include "new_plugin/plugin_files.hpp"
 
 namespace hypotrack::app {
 

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "hypotrack/plugin/plugin.hpp"
 
 namespace hypotrack::app {
 
@@ -24,5 +28,17 @@ std::map<std::string, std::string> plugin_files(const PluginRequest& request,
 
 /// Returns a scene of a moving box that the synthetic source renders.
 std::string rendered_scene();
+
+/// Renders the frames of a scene into a new folder, in the layout of the EuRoC MAV dataset, which
+/// the example of a source reads. Throws what sources throw, and OutputError.
+void write_example_recording(const std::filesystem::path& scene, PluginLoader& plugins,
+                             const std::filesystem::path& folder);
+
+/// Returns the files that a guide for authors shows, by name: its blocks ```` ```lang file=NAME
+/// ````.
+std::map<std::string, std::string> files_of_guide(std::string_view markdown);
+
+/// Reads those of the installed guide. Throws DataError if there is none.
+std::map<std::string, std::string> files_of_guide();
 
 }  // namespace hypotrack::app

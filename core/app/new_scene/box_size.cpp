@@ -1,5 +1,3 @@
-#include "new_scene/box_size.hpp"
-
 #include <fmt/format.h>
 
 #include <charconv>
@@ -7,6 +5,7 @@
 #include <system_error>
 
 #include "hypotrack/api/error.hpp"
+#include "new_scene/scene_request.hpp"
 
 namespace hypotrack::app {
 

@@ -1,5 +1,3 @@
-#include "new_scene/find_recording.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,6 +14,7 @@
 
 #include "calibrate/picture_pairs.hpp"
 #include "hypotrack/api/error.hpp"
+#include "new_scene/scene_request.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -1,5 +1,3 @@
-#include "new_scene/questions.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -7,7 +5,8 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/text.hpp"
-#include "tell.hpp"
+#include "messages.hpp"
+#include "new_scene/scene_request.hpp"
 
 namespace hypotrack::app {
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,5 +35,27 @@ struct SceneRequest {
 /// Returns the scene as YAML. Paths are relative to `folder`, the scene's, if they lie near it.
 /// Throws ConfigError if the tracker cannot track the models.
 std::string scene_text(const SceneRequest& request, const std::filesystem::path& folder);
+
+/// Reads the edges of a box, `60x120x30mm` or `6x12x3cm`, in millimetres. Throws ConfigError.
+Eigen::Vector3d box_size_mm(const std::string& text);
+
+/// Finds the pictures or videos of a pair, and its calibration, in a folder and two levels below.
+/// Left and right are told by their names: left and right, or cam0 and cam1. Throws DataError if
+/// there is no pair, or more than one.
+RecordingFiles find_recording(const std::filesystem::path& folder);
+
+/// Adds the calibration's second file if `intrinsics` and `extrinsics` lie side by side.
+void add_extrinsics(RecordingFiles& files);
+
+/// A value of a scene that may be given by an option or asked for.
+struct Question {
+  std::string option;      ///< for messages: --model
+  std::string text;        ///< asked on a terminal
+  std::string usual = {};  ///< taken for an empty answer; empty: an answer is needed
+};
+
+/// Asks on the terminal until `take` accepts the answer; it throws Error with what is wrong with
+/// one. Throws ConfigError, naming the option, if standard input is no terminal or ends.
+void ask(const Question& question, const std::function<void(const std::string&)>& take);
 
 }  // namespace hypotrack::app

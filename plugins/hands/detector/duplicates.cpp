@@ -1,6 +1,6 @@
-#include "duplicates.hpp"
-
 #include <algorithm>
+
+#include "hand_detection.hpp"
 
 namespace hypotrack::hands {
 namespace {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "hand_points.hpp"
 
 namespace hypotrack {
@@ -16,3 +18,19 @@ struct HandDetection {
 };
 
 }  // namespace hypotrack
+
+namespace hypotrack::hands {
+
+/// Adds a hand. If it is one that is already there, the surer of the two stays, at its place.
+void add_or_merge(std::vector<HandDetection>& hands, const HandDetection& hand);
+
+/// Moves the network's landmarks (2x21 or 3x21) to the joints and fingertips of hypotrack's hands.
+/// The network puts the wrist nearer to the fingers, the thumb's base beside its joint, and tips
+/// short of the fingers' ends.
+HandPoints joints_of(const HandPoints& landmarks);
+HandPoints3D joints_of(const HandPoints3D& landmarks);
+
+/// Moves joints and fingertips to where the network would put its landmarks: undoes joints_of().
+HandPoints landmarks_at(const HandPoints& joints);
+
+}  // namespace hypotrack::hands

@@ -7,11 +7,10 @@
 #include <span>
 #include <string>
 
-#include "duplicates.hpp"
+#include "hand_detection.hpp"
 #include "hand_landmarker.hpp"
 #include "hand_picture.hpp"
 #include "hypotrack/api/error.hpp"
-#include "joints.hpp"
 #include "palm_detector.hpp"
 #include "tiles.hpp"
 

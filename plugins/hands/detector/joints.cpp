@@ -1,7 +1,7 @@
-#include "joints.hpp"
-
 #include <Eigen/LU>
 #include <array>
+
+#include "hand_detection.hpp"
 
 namespace hypotrack::hands {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "drives.hpp"
 #include "hypotrack/api/error.hpp"
-#include "tree.hpp"
 
 namespace hypotrack::articulated {
 namespace {

@@ -1,5 +1,3 @@
-#include "tree.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +5,7 @@
 #include <set>
 
 #include "hypotrack/api/error.hpp"
+#include "mechanism.hpp"
 
 namespace hypotrack::articulated {
 namespace {

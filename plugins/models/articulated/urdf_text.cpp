@@ -14,7 +14,6 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
-#include "urdf_unread.hpp"
 
 namespace hypotrack::articulated {
 namespace {

@@ -14,4 +14,9 @@ namespace hypotrack::articulated {
 urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file,
                                          std::vector<std::string>& notes);
 
+/// Returns a note that lists the elements and attributes of a URDF text that are not read. Those
+/// that neither move nor show anything have none: <inertial>, <collision>, <dynamics>,
+/// <calibration>.
+std::vector<std::string> unread_in_urdf(const std::string& text);
+
 }  // namespace hypotrack::articulated

@@ -1,5 +1,3 @@
-#include "urdf_unread.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +6,8 @@
 #include <map>
 #include <set>
 #include <sstream>
+
+#include "urdf_text.hpp"
 
 namespace hypotrack::articulated {
 namespace {

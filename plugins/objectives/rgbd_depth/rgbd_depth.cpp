@@ -5,7 +5,7 @@
 #include "energy.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
-#include "on_device.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
 std::span<const std::string_view> enum_names(Foreground) {

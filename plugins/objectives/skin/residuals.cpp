@@ -1,7 +1,6 @@
-#include "residuals.hpp"
-
 #include <algorithm>
 
+#include "score.hpp"
 #include "uncovered_residual.hpp"
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"

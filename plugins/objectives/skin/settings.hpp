@@ -1,5 +1,13 @@
 #pragma once
 
+#include <memory>
+
+namespace hypotrack {
+namespace cuda {
+class DeviceObjective;
+}
+}  // namespace hypotrack
+
 namespace hypotrack::skin {
 
 enum class Foreground { automatic, color, mask, depth };
@@ -14,5 +22,12 @@ struct Settings {
   double range = 100e-3;  ///< m
   bool still_cameras = false;
 };
+
+/// Makes the objective on the GPU; null in a build without CUDA. Does not touch the device before
+/// it prepares a frame.
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings);
+
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
+const char* capabilities();
 
 }  // namespace hypotrack::skin

@@ -8,9 +8,8 @@
 #include "checks.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
-#include "on_device.hpp"
-#include "residuals.hpp"
 #include "score.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::skin {
 

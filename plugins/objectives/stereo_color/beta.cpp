@@ -1,9 +1,8 @@
-#include "beta.hpp"
-
 #include <algorithm>
 
 #include "hypotrack/plugin/numbers.hpp"
 #include "hypotrack/plugin/observation.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 

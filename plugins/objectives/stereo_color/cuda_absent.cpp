@@ -1,6 +1,6 @@
 // Stands in for cuda/ in a build without a CUDA toolkit.
 #include "hypotrack/gpu/device_objective.hpp"
-#include "on_device.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 

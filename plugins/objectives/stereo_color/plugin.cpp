@@ -1,6 +1,6 @@
 #include "hypotrack/plugin/plugin.hpp"
 
-#include "on_device.hpp"
+#include "settings.hpp"
 #include "stereo_color.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::stereo_color::StereoColor,

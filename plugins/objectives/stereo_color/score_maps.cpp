@@ -1,8 +1,8 @@
-#include "score_maps.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "score.hpp"
 
 #define HWY_TARGET_INCLUDE "score_maps.cpp"
 #include <hypotrack/plugin/foreach_target-inl.hpp>

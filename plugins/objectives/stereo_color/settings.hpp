@@ -1,5 +1,14 @@
 #pragma once
 
+#include <memory>
+
+namespace hypotrack {
+struct Observation;
+namespace cuda {
+class DeviceObjective;
+}
+}  // namespace hypotrack
+
 namespace hypotrack::stereo_color {
 
 enum class ColorSpace { rgb, lab, hsv, gray };
@@ -27,5 +36,17 @@ struct Settings {
   Lookup lookup = Lookup::nearest;
   bool use_mask = true;
 };
+
+/// Makes the objective on the GPU; null in a build without CUDA. Does not touch the device before
+/// it prepares a frame.
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings);
+
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
+const char* capabilities();
+
+/// Returns the beta of a frame. It is settings.beta unless beta_by_difference is set and the frame
+/// knows the difference of its views. Then it is beta_by_difference / color_difference,
+/// quantize_log() and clamped to beta_min .. beta_max.
+double beta_of(const Settings& settings, const Observation& observation);
 
 }  // namespace hypotrack::stereo_color

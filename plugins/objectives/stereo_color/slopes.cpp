@@ -1,6 +1,6 @@
-#include "slopes.hpp"
-
 #include <algorithm>
+
+#include "residuals.hpp"
 
 #define HWY_TARGET_INCLUDE "slopes.cpp"
 #include <hypotrack/plugin/foreach_target-inl.hpp>

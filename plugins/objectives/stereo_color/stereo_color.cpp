@@ -8,14 +8,13 @@
 #include <cstddef>
 
 #include "aggregation-inl.hpp"
-#include "beta.hpp"
 #include "checks.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
-#include "on_device.hpp"
-#include "score_maps.hpp"
-#include "slopes.hpp"
+#include "residuals.hpp"
+#include "score.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 std::span<const std::string_view> enum_names(ColorSpace) {

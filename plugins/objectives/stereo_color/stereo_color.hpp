@@ -32,7 +32,7 @@ namespace hypotrack::stereo_color {
 /// background included; gradients by central differences (their scale cancels with the medians);
 /// the right view read at the nearest pixel. Extensions: the other values of color_space,
 /// aggregation, direction, lookup, distinctiveness and falloff; a beta that follows the noise of
-/// the pictures (beta.hpp); a coverage penalty:
+/// the pictures (beta_of()); a coverage penalty:
 ///   s = min(C_l, C_r) (exp(-x) - coverage_penalty),   x = beta ||I_l - I_r||, or its square
 ///   (gaussian)
 /// so that covering pixels less alike than the coverage penalty, mostly background, costs; a

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "hypotrack/plugin/observation.hpp"
-#include "planes_layout.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_patch {

@@ -1,6 +1,6 @@
 #include "hypotrack/plugin/plugin.hpp"
 
-#include "on_device.hpp"
+#include "settings.hpp"
 #include "stereo_patch.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::stereo_patch::StereoPatch,

@@ -1,6 +1,6 @@
-#include "residuals.hpp"
-
 #include <algorithm>
+
+#include "score.hpp"
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"
 #include <hypotrack/plugin/foreach_target-inl.hpp>

@@ -4,10 +4,8 @@
 
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
-#include "on_device.hpp"
-#include "residuals.hpp"
 #include "score.hpp"
-#include "slopes.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_patch {
 

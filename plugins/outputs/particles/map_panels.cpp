@@ -1,11 +1,10 @@
-#include "map_panels.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/api/overlay.hpp"
+#include "swarm_panels.hpp"
 
 namespace hypotrack::particles {
 namespace {

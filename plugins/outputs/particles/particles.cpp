@@ -9,7 +9,6 @@
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/api/media.hpp"
 #include "hypotrack/plugin/plugin.hpp"
-#include "map_panels.hpp"
 #include "swarm_panels.hpp"
 
 namespace hypotrack::particles {

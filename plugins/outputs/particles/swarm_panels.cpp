@@ -7,8 +7,6 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
-#include "map_panels.hpp"
-
 namespace hypotrack::particles {
 namespace {
 

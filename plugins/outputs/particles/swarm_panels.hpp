@@ -18,4 +18,16 @@ struct SwarmRow {
 /// The search is the one that led to the record's answer.
 SwarmRow swarm_row(Renderer& renderer, const Scene& scene, const SearchRecord& record);
 
+/// Returns the camera of a tile, enlarged to a panel.
+Camera panel_camera(const TileCamera& tile);
+/// Returns the tile's picture in the size of a panel, 8-bit BGR.
+cv::Mat panel_picture(const TileView& view);
+/// Returns where a scene in a state covers a panel, one polygon per visible outline.
+std::vector<std::vector<cv::Point>> outlines(Renderer& renderer, const Eigen::VectorXd& state,
+                                             const Camera& camera);
+
+/// Returns the panels of one view: its picture with the answer's outline, the answer's depth, and
+/// the terms' maps.
+std::vector<Panel> map_panels(Renderer& renderer, const SearchRecord& record, std::size_t view);
+
 }  // namespace hypotrack::particles

@@ -1,5 +1,3 @@
-#include "window/display.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +5,7 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
-#include "window/process_window.hpp"
+#include "window/window.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -8,7 +8,6 @@
 #include <memory>
 
 #include "lab/landscape/landscape_files.hpp"
-#include "lab/landscape/landscape_svg.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 

@@ -13,7 +13,6 @@
 #include "lab/report/packed.hpp"
 #include "lab/report/page.hpp"
 #include "lab/report/replay.hpp"
-#include "lab/report/replay_shape.hpp"
 #include "lab/report/run_series.hpp"
 #include "study_fixture.hpp"
 #include "test_models.hpp"

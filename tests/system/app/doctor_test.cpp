@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app_test.hpp"
-#include "doctor/cameras.hpp"
+#include "doctor/check.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -5,7 +5,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/media.hpp"
-#include "new_scene/find_recording.hpp"
+#include "new_scene/scene_request.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -4,7 +4,7 @@
 #include "cuda/depth_term.cuh"
 #include "cuda/device_frame.hpp"
 #include "hypotrack/gpu/pixel_objective.cuh"
-#include "on_device.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {

@@ -3,7 +3,7 @@
 #include "cuda/device_foreground.hpp"
 #include "cuda/skin_term.cuh"
 #include "hypotrack/gpu/pixel_objective.cuh"
-#include "on_device.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::skin {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <memory>
 
-#include "beta.hpp"
 #include "checks.hpp"
 #include "cuda/color_term.cuh"
 #include "cuda/feature_maps.hpp"
 #include "hypotrack/gpu/pixel_objective.cuh"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 

@@ -1,6 +1,5 @@
-#include "on_device.hpp"
-
 #include "cuda/lookups.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 

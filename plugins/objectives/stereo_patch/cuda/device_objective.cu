@@ -4,7 +4,7 @@
 #include "cuda/device_volume.hpp"
 #include "cuda/patch_term.cuh"
 #include "hypotrack/gpu/pixel_objective.cuh"
-#include "on_device.hpp"
+#include "settings.hpp"
 #include "share.hpp"
 
 namespace hypotrack::stereo_patch {

@@ -4,7 +4,6 @@
 
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/gpu/runtime.cuh"
-#include "planes_layout.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_patch {

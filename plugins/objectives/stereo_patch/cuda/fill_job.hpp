@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "hypotrack/gpu/device_objective.hpp"
-#include "planes_layout.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_patch {

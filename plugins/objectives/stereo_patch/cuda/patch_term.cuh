@@ -4,7 +4,7 @@
 
 #include "hypotrack/gpu/pixel_walk.cuh"
 #include "patch_similarity-inl.hpp"
-#include "planes_layout.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_patch {
 

@@ -1,8 +1,8 @@
-#include "duplicates.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "hand_detection.hpp"
 
 namespace hypotrack::hands {
 namespace {

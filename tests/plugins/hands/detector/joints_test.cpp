@@ -1,9 +1,8 @@
-#include "joints.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "hand_detection.hpp"
 #include "pictures.hpp"
 #include "upright_hand.hpp"
 

@@ -1,5 +1,3 @@
-#include "residuals.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
-#include "on_device.hpp"
 #include "random_pair.hpp"
+#include "settings.hpp"
 #include "stereo_color.hpp"
 
 namespace hypotrack::stereo_color {
