@@ -37,7 +37,9 @@ std::string mistake(const CLI::App* app, const CLI::Error& error) {
     return error.what() + way_out;
   std::vector<std::string> commands;
   for (const CLI::App* command : shown_commands(*app)) commands.push_back(command->get_name());
-  const std::string hint = did_you_mean(left.front(), commands);
+  const bool is_former = left.front() == "start" && !app->get_parent();  // its name in 0.2
+  const std::string hint =
+      is_former ? "; it is `click` now." : did_you_mean(left.front(), commands);
   return fmt::format("there is no command '{}'{} There are: {}{}", left.front(),
                      hint.empty() ? "." : hint, fmt::join(commands, ", "), way_out);
 }

@@ -76,6 +76,7 @@ TEST_F(UsageTest, MistakesOfUsageSayWhatIsExpected) {
   };
   EXPECT_THAT(message({"rum", "a.yaml"}),
               AllOf(HasSubstr("no command 'rum'; did you mean 'run'?"), HasSubstr("validate")));
+  EXPECT_THAT(message({"start", "a.yaml"}), HasSubstr("no command 'start'; it is `click` now. "));
   EXPECT_THAT(message({"run", "a.yaml", "--frames", "0"}),
               HasSubstr("--frames: expected a whole number from 1 to 2147483647, found '0'"));
   EXPECT_THAT(message({"run", "a.yaml", "--frames", "1e3"}), HasSubstr("found '1e3'"));
