@@ -18,9 +18,11 @@ Eigen::Isometry3d mirrored_transform(const Eigen::Isometry3d& transform) {
 
 ModelData mirrored(const ModelData& data) {
   ModelData result = data;
-  result.mesh.vertices.row(0) *= -1;
-  // Mirroring reverses the orientation; reversing the winding restores it.
-  result.mesh.triangles.row(1).swap(result.mesh.triangles.row(2));
+  for (Mesh* mesh : {&result.mesh, &result.drawn}) {
+    mesh->vertices.row(0) *= -1;
+    // Mirroring reverses the orientation; reversing the winding restores it.
+    mesh->triangles.row(1).swap(mesh->triangles.row(2));
+  }
   if (result.mesh.uv_triangles.cols() > 0) {
     result.mesh.uv_triangles.row(1).swap(result.mesh.uv_triangles.row(2));
   }

@@ -20,17 +20,18 @@ void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches) {
         stretches[static_cast<std::size_t>(bone.parent)](bone.parent_from_bone.translation());
   }
   const std::vector<Eigen::Isometry3d> after = bind_transforms(data);
-  for (Eigen::Index v = 0; v < data.mesh.vertices.cols(); ++v) {
-    const Eigen::Vector3d vertex = data.mesh.vertices.col(v).cast<double>();
-    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 4; ++k) {
-      const double weight = static_cast<double>(data.mesh.bone_weights(k, v));
-      if (weight == 0) continue;
-      const auto bone = static_cast<std::size_t>(data.mesh.bone_indices(k, v));
-      moved += weight * (after[bone] * stretches[bone](before[bone].inverse() * vertex));
+  for (Mesh* mesh : {&data.mesh, &data.drawn})
+    for (Eigen::Index v = 0; v < mesh->vertices.cols(); ++v) {
+      const Eigen::Vector3d vertex = mesh->vertices.col(v).cast<double>();
+      Eigen::Vector3d moved = Eigen::Vector3d::Zero();
+      for (int k = 0; k < 4; ++k) {
+        const double weight = static_cast<double>(mesh->bone_weights(k, v));
+        if (weight == 0) continue;
+        const auto bone = static_cast<std::size_t>(mesh->bone_indices(k, v));
+        moved += weight * (after[bone] * stretches[bone](before[bone].inverse() * vertex));
+      }
+      mesh->vertices.col(v) = moved.cast<float>();
     }
-    data.mesh.vertices.col(v) = moved.cast<float>();
-  }
   for (BoneMotion& motion : data.motions) {
     const Bone& bone = data.bones[static_cast<std::size_t>(motion.bone)];
     if (motion.kind != MotionKind::translation || bone.parent < 0) continue;
@@ -47,6 +48,7 @@ void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches) {
 
 void scale_model(ModelData& data, double factor) {
   data.mesh.vertices *= static_cast<float>(factor);
+  data.drawn.vertices *= static_cast<float>(factor);
   for (Bone& bone : data.bones) bone.parent_from_bone.translation() *= factor;
   for (BoneMotion& motion : data.motions) {
     if (motion.kind == MotionKind::translation) motion.scale *= factor;

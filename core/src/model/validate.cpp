@@ -30,8 +30,8 @@ class Validator {
 
   void run() const {
     check_bones();
-    check_geometry();
-    check_weights();
+    check_surface(data_.mesh);
+    if (data_.drawn.triangles.cols() > 0) check_surface(data_.drawn);
     check_texture();
     check_parameters();
     check_motions();
@@ -78,8 +78,12 @@ class Validator {
   }
 
   void check_bones() const;
-  void check_geometry() const;
-  void check_weights() const;
+  void check_surface(const Mesh& mesh) const {
+    check_geometry(mesh);
+    check_weights(mesh);
+  }
+  void check_geometry(const Mesh& mesh) const;
+  void check_weights(const Mesh& mesh) const;
   void check_texture() const;
   void check_parameters() const;
   void check_bounds(const Parameter& parameter) const;
@@ -111,8 +115,7 @@ void Validator::check_bones() const {
   }
 }
 
-void Validator::check_geometry() const {
-  const Mesh& mesh = data_.mesh;
+void Validator::check_geometry(const Mesh& mesh) const {
   const Eigen::Index vertices = mesh.vertices.cols();
   if (mesh.triangles.cols() == 0) fail("the mesh has no faces");
   for (Eigen::Index v = 0; v < vertices; ++v) {
@@ -127,8 +130,7 @@ void Validator::check_geometry() const {
   }
 }
 
-void Validator::check_weights() const {
-  const Mesh& mesh = data_.mesh;
+void Validator::check_weights(const Mesh& mesh) const {
   const Eigen::Index vertices = mesh.vertices.cols();
   if (mesh.bone_weights.cols() != vertices || mesh.bone_indices.cols() != vertices) {
     fail("the mesh has {} vertices but bone weights for {} and bone indices for {}", vertices,

@@ -8,6 +8,13 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
+/// Returns the mesh that evaluations draw.
+inline const Mesh& drawn_mesh(const Model& model) {
+  const ModelData& data = model.data();
+  const bool is_simplified = data.drawn.triangles.cols() > 0 && !model.poses_itself();
+  return is_simplified ? data.drawn : data.mesh;
+}
+
 /// Returns true if a mesh is the outer surface of solid bodies. Then every edge joins two triangles
 /// of equal orientation, and every connected part encloses a positive volume. From outside, the
 /// nearest surface faces the camera, so that back faces need not be drawn.

@@ -41,17 +41,18 @@ ScenePlan::ScenePlan(const Scene& scene) {
 
 void ScenePlan::add_skinned(const Scene::Item& item) {
   const ModelData& data = item.model->data();
+  const Mesh& mesh = drawn_mesh(*item.model);
   skinned.push_back({BonePoser(data), item.offset, item.model->dimension(), bone_count});
-  const std::vector<int> order = order_by_bones(data.mesh);
+  const std::vector<int> order = order_by_bones(mesh);
   std::vector<std::uint32_t> new_index(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     new_index[static_cast<std::size_t>(order[i])] = vertex_count + static_cast<std::uint32_t>(i);
   }
   for (std::size_t i = 0; i < order.size(); i += kBlock) {
     const std::size_t count = std::min<std::size_t>(kBlock, order.size() - i);
-    add_block(data.mesh, bone_count, order.data() + i, static_cast<int>(count));
+    add_block(mesh, bone_count, order.data() + i, static_cast<int>(count));
   }
-  add_triangles(data.mesh, new_index);
+  add_triangles(mesh, new_index);
   add_part(item);
   bone_count += static_cast<int>(data.bones.size());
 }
@@ -95,7 +96,7 @@ void ScenePlan::add_posed(const Scene::Item& item) {
 }
 
 void ScenePlan::add_part(const Scene::Item& item) {
-  const auto count = static_cast<std::size_t>(item.model->data().mesh.vertices.cols());
+  const auto count = static_cast<std::size_t>(drawn_mesh(*item.model).vertices.cols());
   parts.push_back({&item, vertex_count, static_cast<std::uint32_t>(count)});
   vertex_count += round_up(count);
 }

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -156,6 +157,40 @@ TEST_F(RigidMesh, MillimetresReadAsMetresAreToldWhatToDo) {
   EXPECT_THAT(model_error("{type: rigid_mesh, mesh: " + file_ + "}"),
               ::testing::AllOf(::testing::HasSubstr("the object is 40 m long"),
                                ::testing::HasSubstr("`units: mm`")));
+}
+
+/// Writes a plane of 0.1 m with `cells` x `cells` x 2 triangles.
+void write_plane(const std::filesystem::path& file, int cells) {
+  std::ofstream out(file);
+  for (int y = 0; y <= cells; ++y)
+    for (int x = 0; x <= cells; ++x)
+      out << "v " << 0.1 * x / cells << ' ' << 0.1 * y / cells << " 0\n";
+  for (int y = 0; y < cells; ++y)
+    for (int x = 1; x <= cells; ++x) {
+      const int a = y * (cells + 1) + x, b = a + cells + 1;
+      out << "f " << a << ' ' << a + 1 << ' ' << b + 1 << "\nf " << a << ' ' << b + 1 << ' ' << b
+          << '\n';
+    }
+}
+
+TEST_F(RigidMesh, EvaluationsDrawFewTrianglesAndTheRunSaysHowMany) {
+  write_plane(file_, 40);
+  const auto notes = std::make_shared<PluginNotes>();
+  const auto make = [&](const std::string& more) {
+    return PluginLoader().make<Model>(
+        ConfigNode::parse("{type: rigid_mesh, mesh: " + file_ + more + "}", "scene.yaml"), nullptr,
+        {}, nullptr, notes);
+  };
+  const auto plane = make("");
+  EXPECT_EQ(plane->data().mesh.triangles.cols(), 3200);
+  EXPECT_LT(plane->data().drawn.triangles.cols(), 100);
+  EXPECT_THAT(notes->take_lines(),
+              testing::ElementsAre(testing::AllOf(
+                  testing::HasSubstr(fmt::format("evaluations draw {} triangles for its 3200",
+                                                 plane->data().drawn.triangles.cols())),
+                  testing::HasSubstr("simplify_mm"))));
+  EXPECT_EQ(make(", simplify_mm: 0")->data().drawn.triangles.cols(), 0);
+  EXPECT_THAT(notes->take_lines(), testing::IsEmpty());
 }
 
 TEST_F(RigidMesh, ReadsTheScannedBoxesWithTheirTexture) {

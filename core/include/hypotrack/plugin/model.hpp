@@ -106,7 +106,14 @@ struct ModelData {
   std::vector<Parameter> parameters;
   std::vector<BoneMotion> motions;
   std::vector<Landmark> landmarks;
+  /// Fewer triangles of nearly the same surface, without texture, which evaluations draw to be
+  /// faster; without triangles, they draw `mesh`. Not for models that pose themselves.
+  Mesh drawn = {};
 };
+
+/// Fills `drawn` of a rigid object with triangles that differ from its mesh by about `tolerance`
+/// (metres) at most; leaves it empty if that is more than half as many. Returns the difference.
+HYPOTRACK_API double simplify(ModelData& data, double tolerance);
 
 /// Throws DataError, naming `where`, if the data breaks a contract above. Examples are missing
 /// faces, NaN, indices out of range and weights that do not sum to 1. Others are parents after

@@ -18,7 +18,7 @@ struct HostSurface {
   std::vector<VertexLayout> vertices;
   std::vector<PackedTriangle> triangles;
 
-  void add(const ModelData& data);
+  void add(const Model& model);
   void add_vertices(const Mesh& mesh, const std::vector<int>& order, std::size_t first_bone);
   void add_triangles(const Mesh& mesh, const std::vector<int>& order, std::size_t first_vertex);
 };
@@ -31,12 +31,13 @@ std::vector<int> order_by_work(const Mesh& mesh) {
   return order;
 }
 
-void HostSurface::add(const ModelData& data) {
+void HostSurface::add(const Model& model) {
+  const Mesh& mesh = drawn_mesh(model);
   const std::size_t first_vertex = vertices.size();
-  const std::vector<int> order = order_by_work(data.mesh);
-  add_vertices(data.mesh, order, bones);
-  add_triangles(data.mesh, order, first_vertex);
-  bones += data.bones.size();
+  const std::vector<int> order = order_by_work(mesh);
+  add_vertices(mesh, order, bones);
+  add_triangles(mesh, order, first_vertex);
+  bones += model.data().bones.size();
 }
 
 void HostSurface::add_vertices(const Mesh& mesh, const std::vector<int>& order,
@@ -89,7 +90,7 @@ std::string why_not_on_device(const Scene& scene) {
     if (item.model->poses_itself()) {
       return fmt::format("model '{}' poses itself, which only the CPU can do", item.name);
     }
-    vertices += item.model->data().mesh.vertices.cols();
+    vertices += drawn_mesh(*item.model).vertices.cols();
     bones += item.model->data().bones.size();
   }
   if (vertices > kVertexMask) {
@@ -107,7 +108,7 @@ DeviceScene::DeviceScene(const Scene& scene) {
   }
   const Skeleton skeleton(scene);
   HostSurface surface;
-  for (const Scene::Item& item : scene.items()) surface.add(item.model->data());
+  for (const Scene::Item& item : scene.items()) surface.add(*item.model);
   layout_ = {scene.dimension(),
              static_cast<int>(skeleton.models.size()),
              static_cast<int>(skeleton.bones.size()),

@@ -27,22 +27,22 @@ void upload(GLenum target, GLuint buffer, const Matrix& data, GLenum usage) {
 EglModel::EglModel(const Scene::Item& item)
     : item_(&item),
       poser_(item.model->data()),
-      two_sided_(!is_closed_outwards(item.model->data().mesh)),
+      two_sided_(!is_closed_outwards(drawn_mesh(*item.model))),
       vertex_array_(gl::make_vertex_array()),
       positions_(gl::make_buffer()),
       bones_(gl::make_buffer()),
       weights_(gl::make_buffer()),
       triangles_(gl::make_buffer()) {
-  const ModelData& data = item.model->data();
+  const Mesh& mesh = drawn_mesh(*item.model);
   glBindVertexArray(vertex_array_);
-  upload(GL_ARRAY_BUFFER, positions_, data.mesh.vertices, GL_DYNAMIC_DRAW);
+  upload(GL_ARRAY_BUFFER, positions_, mesh.vertices, GL_DYNAMIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-  upload(GL_ARRAY_BUFFER, bones_, data.mesh.bone_indices, GL_STATIC_DRAW);
+  upload(GL_ARRAY_BUFFER, bones_, mesh.bone_indices, GL_STATIC_DRAW);
   glVertexAttribIPointer(1, 4, GL_INT, 0, nullptr);
-  upload(GL_ARRAY_BUFFER, weights_, data.mesh.bone_weights, GL_STATIC_DRAW);
+  upload(GL_ARRAY_BUFFER, weights_, mesh.bone_weights, GL_STATIC_DRAW);
   glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
   for (GLuint i = 0; i < 3; ++i) glEnableVertexAttribArray(i);
-  upload(GL_ELEMENT_ARRAY_BUFFER, triangles_, data.mesh.triangles, GL_STATIC_DRAW);
+  upload(GL_ELEMENT_ARRAY_BUFFER, triangles_, mesh.triangles, GL_STATIC_DRAW);
 }
 
 std::span<const double> EglModel::drawable_part(std::span<const double> state) const {
@@ -88,7 +88,7 @@ void EglModel::bind() const {
 
 void EglModel::draw(int instances) const {
   glDrawElementsInstanced(GL_TRIANGLES,
-                          static_cast<GLsizei>(item_->model->data().mesh.triangles.size()),
+                          static_cast<GLsizei>(drawn_mesh(*item_->model).triangles.size()),
                           GL_UNSIGNED_INT, nullptr, instances);
 }
 

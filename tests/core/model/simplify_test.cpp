@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/model.hpp"
+#include "hypotrack/plugin/shape.hpp"
+#include "scene/mesh_topology.hpp"
+#include "scene/scene_plan.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr float kRadius = 0.05F;  // metres
+
+/// A closed ball with poles on the z axis.
+ModelData ball(int rings = 60, int sides = 100) {
+  Mesh mesh;
+  mesh.vertices.resize(3, (rings - 1) * sides + 2);
+  const auto at = [&](int ring, int side) { return 1 + (ring - 1) * sides + side % sides; };
+  const int last = static_cast<int>(mesh.vertices.cols()) - 1;
+  mesh.vertices.col(0) << 0, 0, kRadius;
+  mesh.vertices.col(last) << 0, 0, -kRadius;
+  std::vector<Eigen::Vector3i> triangles;
+  for (int ring = 1; ring < rings; ++ring)
+    for (int side = 0; side < sides; ++side) {
+      const float a =
+          std::numbers::pi_v<float> * static_cast<float>(ring) / static_cast<float>(rings);
+      const float b =
+          2 * std::numbers::pi_v<float> * static_cast<float>(side) / static_cast<float>(sides);
+      mesh.vertices.col(at(ring, side)) << kRadius * std::sin(a) * std::cos(b),
+          kRadius * std::sin(a) * std::sin(b), kRadius * std::cos(a);
+      if (ring == 1) triangles.push_back({0, at(1, side), at(1, side + 1)});
+      if (ring + 1 == rings) {
+        triangles.push_back({last, at(ring, side + 1), at(ring, side)});
+      } else {
+        triangles.push_back({at(ring, side), at(ring + 1, side), at(ring + 1, side + 1)});
+        triangles.push_back({at(ring, side), at(ring + 1, side + 1), at(ring, side + 1)});
+      }
+    }
+  mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    mesh.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+  return rigid_model(std::move(mesh));
+}
+
+/// The smallest distance of a triangle's plane from the centre of a ball.
+float nearest_plane(const Mesh& mesh) {
+  float nearest = 2 * kRadius;
+  for (const auto& t : mesh.triangles.colwise()) {
+    const Eigen::Vector3f a = mesh.vertices.col(t[0]), b = mesh.vertices.col(t[1]);
+    const Eigen::Vector3f c = mesh.vertices.col(t[2]);
+    nearest = std::min(nearest, (b - a).cross(c - a).normalized().dot(a));
+  }
+  return nearest;
+}
+
+TEST(Simplify, DrawsFewTrianglesNearTheSurface) {
+  ModelData data = ball();
+  const double error = simplify(data, 0.5e-3);
+  EXPECT_GT(error, 0);
+  EXPECT_LE(error, 0.5e-3);
+  EXPECT_LT(data.drawn.triangles.cols() * 5, data.mesh.triangles.cols());
+  EXPECT_TRUE(internal::is_closed_outwards(data.drawn));
+  EXPECT_GT(nearest_plane(data.drawn), kRadius - 2e-3F);
+  EXPECT_EQ(data.mesh.vertices, ball().mesh.vertices);
+  validate(data, "ball");
+}
+
+TEST(Simplify, LeavesASurfaceWithoutSpareTrianglesAsItIs) {
+  ModelData data = ball(8, 12);
+  EXPECT_EQ(simplify(data, 0.05e-3), 0);
+  EXPECT_EQ(data.drawn.triangles.cols(), 0);
+  data = ball();
+  EXPECT_EQ(simplify(data, 0), 0);
+  EXPECT_EQ(data.drawn.triangles.cols(), 0);
+}
+
+TEST(Simplify, IsScaledAndMirroredWithTheModel) {
+  ModelData data = ball();
+  simplify(data, 0.5e-3);
+  ModelData scaled = data;
+  scale_model(scaled, 2);
+  EXPECT_TRUE(scaled.drawn.vertices.isApprox(2 * data.drawn.vertices));
+  const ModelData other = mirrored(data);
+  EXPECT_TRUE(internal::is_closed_outwards(other.drawn));
+  EXPECT_EQ(other.drawn.vertices.row(0), -data.drawn.vertices.row(0));
+}
+
+TEST(Simplify, IsWhatEvaluationsDraw) {
+  ModelData data = ball();
+  const auto whole = std::make_shared<const Model>(data);
+  simplify(data, 0.5e-3);
+  const auto fewer = std::make_shared<const Model>(data);
+  const Scene all({{"ball", whole}}), some({{"ball", fewer}});
+  EXPECT_LT(internal::ScenePlan(some).triangle_count * 4, internal::ScenePlan(all).triangle_count);
+  EXPECT_LT(internal::ScenePlan(some).vertex_count * 4, internal::ScenePlan(all).vertex_count);
+}
+
+TEST(Simplify, ItsSurfaceIsValidatedToo) {
+  ModelData data = ball();
+  simplify(data, 0.5e-3);
+  data.drawn.triangles(0, 0) = static_cast<int>(data.drawn.vertices.cols());
+  EXPECT_THROW(validate(data, "ball"), DataError);
+}
+
+}  // namespace
+}  // namespace hypotrack
