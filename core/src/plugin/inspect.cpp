@@ -13,6 +13,7 @@
 #include "base/system_problem.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/text.hpp"
+#include "hypotrack/plugin/plugin.hpp"
 #include "plugin/capabilities.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
@@ -205,8 +206,10 @@ std::string format_info(const PluginRow& row) {
 
 std::string format_check(const PluginRow& row) {
   if (!row.usable()) return fmt::format("{}: {}\n", row.path.string(), row.problem);
-  return fmt::format("{}: {} '{}' {} can be used\n", row.path.string(), row.kind, row.name,
-                     row.version);
+  // Those of another minor version, which have another number, cannot be loaded.
+  return fmt::format("{}: {} '{}' {} can be used; it was built for hypotrack {}, plugin ABI {}\n",
+                     row.path.string(), row.kind, row.name, row.version, detail::minor_version(),
+                     kAbiVersion);
 }
 
 }  // namespace hypotrack::internal

@@ -58,7 +58,8 @@ std::string format_info(const PluginRow& row);
 /// out what depends on the build.
 std::string format_markdown(const PluginRow& row);
 
-/// Formats "FILE: optimizer 'pso' 0.1.0 can be used", or why it cannot.
+/// Formats "FILE: optimizer 'pso' 0.1.0 can be used", and for which hypotrack it was built; or why
+/// it cannot.
 std::string format_check(const PluginRow& row);
 
 }  // namespace internal

@@ -55,6 +55,16 @@ std::string tag_difference(std::string_view theirs, std::string_view ours) {
                      missing_from(theirs, ours), missing_from(ours, theirs));
 }
 
+/// Returns the minor version of the hypotrack that a library was built for, if the dynamic linker
+/// did not find that one: `0.1`. Empty otherwise.
+std::string_view other_version(std::string_view reason) {
+  constexpr std::string_view kName = "libhypotrack.so.", kMissing = ": cannot open";
+  if (!reason.starts_with(kName)) return {};
+  reason.remove_prefix(kName.size());
+  const std::size_t end = reason.find(kMissing);
+  return end == reason.npos ? std::string_view() : reason.substr(0, end);
+}
+
 /// Returns a file's size, or 0 if it is not a file.
 std::uintmax_t file_size_of(const std::filesystem::path& file) {
   std::error_code none;
@@ -63,6 +73,11 @@ std::uintmax_t file_size_of(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+std::string_view minor_version() {
+  constexpr std::string_view kVersion = HYPOTRACK_VERSION;
+  return kVersion.substr(0, kVersion.rfind('.'));
+}
 
 std::string library_file_name(std::string_view kind, std::string_view name) {
   return fmt::format("{}{}_{}{}", kFilePrefix, kind, name, kFileSuffix);
@@ -116,6 +131,10 @@ void* load_library(const std::filesystem::path& file) {
   if (!library) {
     std::string_view reason = text_of(dlerror());
     if (reason.starts_with(path + ": ")) reason.remove_prefix(path.size() + 2);
+    if (const std::string_view version = other_version(reason); !version.empty())
+      throw PluginError(fmt::format(
+          "was built for hypotrack {}, this is {}; build it again with this hypotrack's headers",
+          version, minor_version()));
     throw PluginError(fmt::format("cannot be loaded: {}", reason));
   }
   return library;

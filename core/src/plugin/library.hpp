@@ -24,6 +24,9 @@ struct PluginId {
 inline constexpr std::string_view kPluginKinds[] = {HYPOTRACK_PLUGIN_KINDS(HYPOTRACK_KIND)};
 #undef HYPOTRACK_KIND
 
+/// Returns the version of hypotrack without the patch, which the binary interface has: `0.2`.
+std::string_view minor_version();
+
 std::string library_file_name(std::string_view kind, std::string_view name);
 
 /// Parses a library's file name; returns nothing if it is not a plugin library's.

@@ -1,6 +1,9 @@
 #include "plugin/inspect.hpp"
 
 #include <atomic>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <thread>
 
 #include "hypotrack/api/error.hpp"
@@ -26,8 +29,25 @@ TEST(Inspect, UsablePluginsAreDescribed) {
   EXPECT_EQ(row.summary, "does what it is told");
   EXPECT_EQ(row.capabilities, "deterministic batch");
   EXPECT_THAT(row.parameters, HasSubstr("particles of the swarm"));
-  EXPECT_EQ(format_check(row),
-            fixture("good", "sample").string() + ": optimizer 'sample' 1.2.3 can be used\n");
+  EXPECT_THAT(format_check(row),
+              testing::MatchesRegex(fixture("good", "sample").string() +
+                                    ": optimizer 'sample' 1.2.3 can be used; it was built for "
+                                    "hypotrack [0-9]+.[0-9]+, plugin ABI " +
+                                    std::to_string(kAbiVersion) + "\n"));
+}
+
+TEST(Inspect, APluginForAnotherMinorVersionNamesIt) {
+  std::ifstream sample(fixture("good", "sample"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(sample), std::istreambuf_iterator<char>()};
+  const std::string library = "libhypotrack.so.";
+  const std::size_t version = bytes.find(library) + library.size();
+  const std::string ours = bytes.substr(version, bytes.find('\0', version) - version);
+  bytes.replace(version, ours.size(), std::string(ours.size() - 2, '9') + ".9");
+  const TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "libhypotrack_optimizer_sample.so";
+  std::ofstream(file, std::ios::binary) << bytes;
+  EXPECT_EQ(check_plugin(file).problem, "was built for hypotrack 9.9, this is " + ours +
+                                            "; build it again with this hypotrack's headers");
 }
 
 TEST(Inspect, HarmIsARowNotTheEnd) {
