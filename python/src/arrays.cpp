@@ -130,12 +130,30 @@ py::object array_of(const cv::Mat& picture) {
   return array;
 }
 
-ColumnsMap columns_of(const Doubles& array, Eigen::Index dimension, const char* what) {
-  const bool one = array.ndim() == 1;
-  if ((!one && array.ndim() != 2) || array.shape(array.ndim() - 1) != dimension)
-    throw Error(fmt::format("{}: expected an array of shape (N, {}) or ({},); found {}", what,
-                            dimension, dimension, shape_text(array)));
-  return ColumnsMap(array.data(), dimension, one ? 1 : array.shape(0));
+std::string Numbers::problem(const char* what, const std::string& shape) const {
+  return fmt::format("{}: expected an array of shape {}; found {}", what, shape, found);
+}
+
+Numbers numbers_of(const py::handle& object) {
+  Numbers numbers{Numbers::Array::ensure(object)};
+  if (numbers.array) {
+    numbers.found = shape_text(numbers.array);
+    return numbers;
+  }
+  numbers.found = py::cast<std::string>(py::type::of(object).attr("__name__"));
+  try {  // again, because ensure() forgets what numpy says
+    py::module_::import("numpy").attr("asarray")(object, "float64");
+  } catch (const py::error_already_set& error) {
+    numbers.found += ", of which numpy says: " + py::cast<std::string>(py::str(error.value()));
+  }
+  return numbers;
+}
+
+ColumnsMap columns_of(const Numbers& array, Eigen::Index dimension, const char* what) {
+  const bool some = array.array && (array.ndim() == 1 || array.ndim() == 2);
+  if (!some || array.shape(array.ndim() - 1) != dimension)
+    array.refuse(what, fmt::format("(N, {0}) or ({0},)", dimension));
+  return ColumnsMap(array.data(), dimension, array.ndim() == 1 ? 1 : array.shape(0));
 }
 
 py::array_t<double> array_of(const Eigen::VectorXd& vector) {
@@ -146,26 +164,35 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
 }
 py::array_t<double> points_of(const Eigen::Matrix3Xd& points) { return rows_of<double>(points); }
 
-Eigen::VectorXd vector_of(const Doubles& array, const char* what) {
-  if (array.ndim() != 1)
-    throw Error(
-        fmt::format("{}: expected an array of one axis; found shape {}", what, shape_text(array)));
+Eigen::VectorXd vector_of(const Numbers& array, const char* what) {
+  if (!array.array || array.ndim() != 1) array.refuse(what, "(N,)");
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.shape(0));
 }
 
-Eigen::MatrixXd matrix_of(const Doubles& array, Eigen::Index rows, Eigen::Index columns,
+Eigen::VectorXd vector_of(const Numbers& array, Eigen::Index size, const char* what) {
+  if (!array.array || array.ndim() != 1 || array.shape(0) != size)
+    array.refuse(what, fmt::format("({},)", size));
+  return vector_of(array, what);
+}
+
+Eigen::VectorXd finite_vector_of(const Numbers& array, Eigen::Index size, const char* what) {
+  Eigen::VectorXd vector = vector_of(array, size, what);
+  for (Eigen::Index i = 0; i < size; ++i)
+    if (!std::isfinite(vector[i]))
+      throw Error(fmt::format("{}: number {} is {}; expected finite numbers", what, i, vector[i]));
+  return vector;
+}
+
+Eigen::MatrixXd matrix_of(const Numbers& array, Eigen::Index rows, Eigen::Index columns,
                           const char* what) {
-  if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != columns)
-    throw Error(fmt::format("{}: expected an array of shape ({}, {}); found {}", what, rows,
-                            columns, shape_text(array)));
+  if (!array.array || array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != columns)
+    array.refuse(what, fmt::format("({}, {})", rows, columns));
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const RowMajor>(array.data(), rows, columns);
 }
 
-Eigen::Matrix3Xd matrix_of_points(const Doubles& array, const char* what) {
-  if (array.ndim() != 2 || array.shape(1) != 3)
-    throw Error(
-        fmt::format("{}: expected an array of shape (N, 3); found {}", what, shape_text(array)));
+Eigen::Matrix3Xd matrix_of_points(const Numbers& array, const char* what) {
+  if (!array.array || array.ndim() != 2 || array.shape(1) != 3) array.refuse(what, "(N, 3)");
   return Eigen::Map<const Eigen::Matrix3Xd>(array.data(), 3, array.shape(0));
 }
 

@@ -13,8 +13,26 @@
 
 namespace hypotrack::python {
 
-/// An array of float64 with rows one after the other; other numbers are converted.
-using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+/// What a caller gives for an array of numbers, as float64 with rows one after the other. What is
+/// no array of numbers is taken, too: the functions below refuse it, with the argument's name.
+struct Numbers {
+  using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  Array array;             ///< null if it is none
+  std::string found = {};  ///< the shape, or what was found instead
+
+  py::ssize_t ndim() const { return array.ndim(); }
+  py::ssize_t size() const { return array.size(); }
+  py::ssize_t shape(py::ssize_t axis) const { return array.shape(axis); }
+  const double* data() const { return array.data(); }
+  /// Returns a message: expected an array of that shape.
+  std::string problem(const char* what, const std::string& shape) const;
+  /// Throws Error with it.
+  [[noreturn]] void refuse(const char* what, const std::string& shape) const {
+    throw Error(problem(what, shape));
+  }
+};
+Numbers numbers_of(const py::handle& object);
+
 /// States or points: an array (N, D), or (D) for one.
 using ColumnsMap = Eigen::Map<const Eigen::MatrixXd>;
 
@@ -30,7 +48,7 @@ py::object array_of(const cv::Mat& picture);
 
 /// Returns the states or points of an array as columns (DxN), without a copy. Throws Error unless
 /// its last axis has `dimension` numbers.
-ColumnsMap columns_of(const Doubles& array, Eigen::Index dimension, const char* what);
+ColumnsMap columns_of(const Numbers& array, Eigen::Index dimension, const char* what);
 
 /// Returns an array (D) or (N, D) with the columns (DxN) of a matrix; (D) if `flat`.
 template <class Scalar>
@@ -47,13 +65,17 @@ py::array_t<double> array_of(const Eigen::VectorXd& vector);
 py::array_t<double> array_of(const std::vector<double>& numbers);
 /// Returns an array (N, 3) with the points of a matrix (3xN).
 py::array_t<double> points_of(const Eigen::Matrix3Xd& points);
-/// Returns a vector of an array (D). Throws Error, naming `what`, on other shapes.
-Eigen::VectorXd vector_of(const Doubles& array, const char* what);
+/// Returns a vector of an array (D), or (N) of any length. Throws Error, naming `what`, on other
+/// shapes.
+Eigen::VectorXd vector_of(const Numbers& array, Eigen::Index size, const char* what);
+Eigen::VectorXd vector_of(const Numbers& array, const char* what);
+/// Returns the same. Throws Error if a number is not finite.
+Eigen::VectorXd finite_vector_of(const Numbers& array, Eigen::Index size, const char* what);
 /// Returns a matrix of an array (R, C). Throws Error, naming `what`, on other shapes.
-Eigen::MatrixXd matrix_of(const Doubles& array, Eigen::Index rows, Eigen::Index columns,
+Eigen::MatrixXd matrix_of(const Numbers& array, Eigen::Index rows, Eigen::Index columns,
                           const char* what);
 /// Returns points (3xN) of an array (N, 3). Throws Error, naming `what`, on other shapes.
-Eigen::Matrix3Xd matrix_of_points(const Doubles& array, const char* what);
+Eigen::Matrix3Xd matrix_of_points(const Numbers& array, const char* what);
 
 /// Throws Error unless a blur is a number of pixels, 0 or more.
 void check_blur(double blur);
@@ -62,3 +84,13 @@ void check_blur(double blur);
 std::string shape_text(const py::array& array);
 
 }  // namespace hypotrack::python
+
+/// Takes any object for Numbers. Signatures show it as an array.
+template <>
+struct pybind11::detail::type_caster<hypotrack::python::Numbers> {
+  PYBIND11_TYPE_CASTER(hypotrack::python::Numbers, const_name("numpy.ndarray[numpy.float64]"));
+  bool load(handle source, bool /*convert*/) {
+    value = hypotrack::python::numbers_of(source);
+    return true;
+  }
+};

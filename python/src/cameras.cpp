@@ -12,7 +12,7 @@
 namespace hypotrack::python {
 namespace {
 
-Eigen::Isometry3d pose_of(const Doubles& array, const char* what) {
+Eigen::Isometry3d pose_of(const Numbers& array, const char* what) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.matrix() = matrix_of(array, 4, 4, what);
   if (!pose.matrix().row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1)))
@@ -40,7 +40,17 @@ Camera with_a_size(Camera camera) {
   return camera;
 }
 
-Camera camera_of(const Doubles& matrix, std::pair<int, int> size, std::vector<double> distortion,
+/// Returns the coefficients of an array of one axis, or of the row or column that OpenCV gives.
+std::vector<double> coefficients_of(const Numbers& array) {
+  py::ssize_t longest = 0;
+  for (py::ssize_t i = 0; array.array && i < array.ndim(); ++i)
+    longest = std::max(longest, array.shape(i));
+  if (!array.array || array.ndim() == 0 || longest != array.size())
+    array.refuse("distortion", "(K,)");
+  return {array.data(), array.data() + array.size()};
+}
+
+Camera camera_of(const Numbers& matrix, std::pair<int, int> size, const Numbers& coefficients,
                  const std::string& model, const py::object& camera_from_world) {
   const Eigen::Matrix3d k = matrix_of(matrix, 3, 3, "matrix");
   Camera camera;
@@ -52,10 +62,10 @@ Camera camera_of(const Doubles& matrix, std::pair<int, int> size, std::vector<do
   camera.cy = k(1, 2);
   if (k(0, 1) != 0 || k(1, 0) != 0 || k(2, 0) != 0 || k(2, 1) != 0 || k(2, 2) != 1)
     throw DataError("matrix: expected [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], without skew");
-  camera.distortion_model = model_of(model, distortion.size());
-  camera.distortion = std::move(distortion);
+  camera.distortion = coefficients_of(coefficients);
+  camera.distortion_model = model_of(model, camera.distortion.size());
   if (!camera_from_world.is_none())
-    camera.camera_from_world = pose_of(py::cast<Doubles>(camera_from_world), "camera_from_world");
+    camera.camera_from_world = pose_of(numbers_of(camera_from_world), "camera_from_world");
   validate(with_a_size(camera), "camera");
   return camera;
 }
@@ -66,7 +76,7 @@ py::array matrix_of_camera(const Camera& camera) {
   return rows_of<double>(Eigen::MatrixXd(k.transpose()));
 }
 
-py::array project_all(const Camera& camera, const Doubles& points) {
+py::array project_all(const Camera& camera, const Numbers& points) {
   const bool one = points.ndim() == 1;
   const ColumnsMap columns = columns_of(points, 3, "points");
   Eigen::MatrixXd pixels(2, columns.cols());
@@ -115,7 +125,7 @@ void add_cameras(py::module_& module) {
                      "A calibrated camera with the axes of OpenCV: x right, y down, z forward.")
       .def(
           py::init(&camera_of), py::arg("matrix"), py::arg("size") = std::pair(0, 0),
-          py::arg("distortion") = std::vector<double>(), py::arg("model") = "",
+          py::arg("distortion") = py::tuple(), py::arg("model") = "",
           py::arg("camera_from_world") = py::none(),
           "Makes a camera of its matrix (3, 3) and (width, height) in pixels; (0, 0): those of its "
           "first picture. `distortion` has coefficients in the order of OpenCV, `model` is none, "

@@ -7,14 +7,14 @@
 namespace hypotrack::python {
 namespace {
 
-py::object costs_of(PythonFrameCost& self, const Doubles& states) {
+py::object costs_of(PythonFrameCost& self, const Numbers& states) {
   const ColumnsMap columns = columns_of(states, self.dimension(), "states");
   const Eigen::VectorXd costs = self.call([&](FrameCost& cost) { return cost.costs(columns); });
   if (states.ndim() == 1) return py::float_(costs[0]);
   return array_of(costs);
 }
 
-py::dict terms_of(PythonFrameCost& self, const Doubles& states) {
+py::dict terms_of(PythonFrameCost& self, const Numbers& states) {
   const ColumnsMap columns = columns_of(states, self.dimension(), "states");
   const Eigen::MatrixXd terms = self.call([&](FrameCost& cost) { return cost.terms(columns); });
   py::dict all;
@@ -27,23 +27,25 @@ py::dict terms_of(PythonFrameCost& self, const Doubles& states) {
   return all;
 }
 
-py::array residuals_of(PythonFrameCost& self, const Doubles& states) {
+py::array residuals_of(PythonFrameCost& self, const Numbers& states) {
   const ColumnsMap columns = columns_of(states, self.dimension(), "states");
   return rows_of<float>(self.call([&](FrameCost& cost) { return cost.residuals(columns); }),
                         states.ndim() == 1);
 }
 
-py::array jacobian_of(PythonFrameCost& self, const Doubles& state, const Doubles& steps) {
-  const Eigen::VectorXd at = vector_of(state, "state"), by = vector_of(steps, "steps");
+py::array jacobian_of(PythonFrameCost& self, const Numbers& state, const Numbers& steps) {
+  const Eigen::VectorXd at = finite_vector_of(state, self.dimension(), "state"),
+                        by = finite_vector_of(steps, self.dimension(), "steps");
   // Transposed without a copy of rows: columns of the matrix are rows of its transpose.
   const py::array columns =
       rows_of<float>(self.call([&](FrameCost& cost) { return cost.jacobian(at, by); }));
   return columns.attr("T");
 }
 
-py::tuple equations_of(PythonFrameCost& self, const Doubles& state, const Doubles& steps,
+py::tuple equations_of(PythonFrameCost& self, const Numbers& state, const Numbers& steps,
                        double blur) {
-  const Eigen::VectorXd at = vector_of(state, "state"), by = vector_of(steps, "steps");
+  const Eigen::VectorXd at = finite_vector_of(state, self.dimension(), "state"),
+                        by = finite_vector_of(steps, self.dimension(), "steps");
   check_blur(blur);
   const NormalEquations found =
       self.call([&](FrameCost& cost) { return cost.linearize(at, by, blur); });
@@ -59,14 +61,14 @@ void add_frame_cost(py::module_& module) {
       "one. Batches are evaluated in parallel. States are arrays float64 (N, D), or (D,) for one.")
       .def(
           "look",
-          [](PythonFrameCost& self, const py::object& frame, const Doubles& around) {
+          [](PythonFrameCost& self, const py::object& frame, const Numbers& around) {
             Frame of;
             if (py::isinstance<Frame>(frame))
               of = *py::cast<std::shared_ptr<Frame>>(frame);
             else
               of.views = views_of(frame);
             of.index = std::max(of.index, 0);
-            const Eigen::VectorXd state = vector_of(around, "around");
+            const Eigen::VectorXd state = finite_vector_of(around, self.dimension(), "around");
             self.call([&](FrameCost& cost) {
               cost.look(of, state);
               return 0;

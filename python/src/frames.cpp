@@ -35,9 +35,9 @@ Frame make_frame(const py::object& views, double time, int index, const py::obje
   frame.time = time;
   frame.index = index;
   if (!state.is_none() || !landmarks.is_none()) frame.truth.emplace();
-  if (!state.is_none()) frame.truth->state = vector_of(py::cast<Doubles>(state), "true_state");
+  if (!state.is_none()) frame.truth->state = vector_of(numbers_of(state), "true_state");
   if (!landmarks.is_none())
-    frame.truth->landmarks = matrix_of_points(py::cast<Doubles>(landmarks), "true_landmarks");
+    frame.truth->landmarks = matrix_of_points(numbers_of(landmarks), "true_landmarks");
   if (frame.views.empty()) frame.problem = "there are no pictures";
   return frame;
 }

@@ -31,30 +31,27 @@ py::object evaluate_run(const std::filesystem::path& run,
 }
 
 /// Returns the frames (3xL each) of an array (N, L, 3).
-std::vector<Eigen::Matrix3Xd> frames_of(const Doubles& array, std::size_t landmarks,
+std::vector<Eigen::Matrix3Xd> frames_of(const Numbers& array, std::size_t landmarks,
                                         const char* what) {
-  if (array.ndim() != 3 || array.shape(1) != static_cast<py::ssize_t>(landmarks) ||
+  if (!array.array || array.ndim() != 3 || array.shape(1) != static_cast<py::ssize_t>(landmarks) ||
       array.shape(2) != 3)
-    throw Error(fmt::format("{}: expected an array of shape (N, {}, 3); found {}", what, landmarks,
-                            shape_text(array)));
+    array.refuse(what, fmt::format("(N, {}, 3)", landmarks));
   std::vector<Eigen::Matrix3Xd> frames;
   const auto size = static_cast<Eigen::Index>(landmarks);
   for (py::ssize_t i = 0; i < array.shape(0); ++i)
-    frames.emplace_back(Eigen::Map<const Eigen::Matrix3Xd>(array.data(i), 3, size));
+    frames.emplace_back(Eigen::Map<const Eigen::Matrix3Xd>(array.array.data(i), 3, size));
   return frames;
 }
 
-py::object metrics_of(const std::vector<std::string>& names, const Doubles& estimate,
-                      const Doubles& truth, const py::object& times) {
+py::object metrics_of(const std::vector<std::string>& names, const Numbers& estimate,
+                      const Numbers& truth, const py::object& times) {
   const auto estimates = frames_of(estimate, names.size(), "estimate");
   const auto truths = frames_of(truth, names.size(), "truth");
   if (estimates.size() != truths.size())
     throw Error(fmt::format("estimate has {} frames, truth has {}; expected as many",
                             estimates.size(), truths.size()));
   Eigen::VectorXd seconds;
-  if (!times.is_none()) seconds = vector_of(py::cast<Doubles>(times), "times");
-  if (!times.is_none() && seconds.size() != std::ssize(estimates))
-    throw Error(fmt::format("times: expected {}, found {}", estimates.size(), seconds.size()));
+  if (!times.is_none()) seconds = vector_of(numbers_of(times), std::ssize(estimates), "times");
   MetricsCollector collector(landmark_layout(names));
   Eigen::VectorXd errors(std::ssize(estimates));
   for (std::size_t i = 0; i < estimates.size(); ++i) {

@@ -100,12 +100,11 @@ class PythonObjective final : public Objective {
     if (hypotheses.empty()) return;
     in_python([&] {
       const py::object answer = object_->get().attr("costs")(copy_of(hypotheses));
-      const auto array = Doubles::ensure(answer);
-      if (!array) throw py::error_already_set();
-      if (array.ndim() != 1 || array.shape(0) != static_cast<py::ssize_t>(costs.size()))
-        throw PluginError(fmt::format("its costs() returned an array of shape {}, expected ({},)",
-                                      shape_text(array), costs.size()));
-      std::memcpy(costs.data(), array.data(), costs.size_bytes());
+      const Numbers numbers = numbers_of(answer);
+      if (!numbers.array || numbers.ndim() != 1 || numbers.shape(0) != std::ssize(costs))
+        throw PluginError(
+            numbers.problem("what its costs() returned", fmt::format("({},)", costs.size())));
+      std::memcpy(costs.data(), numbers.data(), costs.size_bytes());
     });
   }
 

@@ -77,7 +77,18 @@ ProgramPlugin plugin_of(const std::string& name, const py::object& type,
   });
 }
 
+/// Refuses parameters with the name of a threshold, which scenes give to every judge.
+void check_names_of_judge(const py::object& type) {
+  const std::string thresholds = "\n" + dump_params(JudgeThresholds());
+  for (const auto& parameter : params_of(type).all)
+    if (thresholds.find("\n" + parameter.name + ":") != thresholds.npos)
+      fail(type, fmt::format("the parameter '{}' of its constructor has the name of a threshold "
+                             "that every judge has; name it otherwise",
+                             parameter.name));
+}
+
 ProgramPlugin judge_plugin(const std::string& name, const py::object& type) {
+  check_names_of_judge(type);
   const auto held = std::make_shared<Held>(type);
   return program_plugin<Judge>(name, [held, name](PluginContext& context) {
     return named<Judge>(context, name, [&] {

@@ -19,12 +19,10 @@ class PythonRenderer {
   PythonRenderer(const PythonRenderer&) = delete;
   PythonRenderer& operator=(const PythonRenderer&) = delete;
 
-  py::tuple render(const Doubles& array, const Camera& camera, const py::object& background,
+  py::tuple render(const Numbers& array, const Camera& camera, const py::object& background,
                    double ambient, double diffuse, int samples) {
     const Busy busy(busy_, "renderer");
-    const Eigen::VectorXd state = vector_of(array, "state");
-    if (state.size() != scene_->dimension() || !state.allFinite())
-      throw Error(fmt::format("state: expected {} finite numbers", scene_->dimension()));
+    const Eigen::VectorXd state = finite_vector_of(array, scene_->dimension(), "state");
     if (camera.width <= 0 || camera.height <= 0)
       throw DataError("camera: expected one with a size; Camera(size=(width, height))");
     cv::Mat behind;

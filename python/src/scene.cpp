@@ -54,16 +54,8 @@ std::vector<std::string> models_of(const Scene& scene) {
   return names;
 }
 
-Eigen::VectorXd state_of(const Scene& scene, const Doubles& array) {
-  const Eigen::VectorXd state = vector_of(array, "state");
-  if (state.size() != scene.dimension())
-    throw Error(
-        fmt::format("state: expected {} numbers, found {}", scene.dimension(), state.size()));
-  return state;
-}
-
 /// Returns landmarks (L, 3) of a state (D), or (N, L, 3) of states (N, D).
-py::array landmarks_of(const Scene& scene, const Doubles& states) {
+py::array landmarks_of(const Scene& scene, const Numbers& states) {
   const ColumnsMap columns = columns_of(states, scene.dimension(), "states");
   const auto count = static_cast<Eigen::Index>(scene.landmark_names().size());
   Eigen::MatrixXd all(3 * count, columns.cols());
@@ -104,8 +96,8 @@ void add_scene(py::module_& module) {
            "axes and metres.")
       .def(
           "normalize",
-          [](const Scene& scene, const Doubles& array) {
-            Eigen::VectorXd state = state_of(scene, array);
+          [](const Scene& scene, const Numbers& array) {
+            Eigen::VectorXd state = vector_of(array, scene.dimension(), "state");
             scene.normalize(state);
             return array_of(state);
           },
@@ -114,7 +106,8 @@ void add_scene(py::module_& module) {
           "pose",
           [](const Scene& scene, const py::dict& poses, const py::object& base) {
             const Eigen::VectorXd from =
-                base.is_none() ? scene.rest_state() : state_of(scene, py::cast<Doubles>(base));
+                base.is_none() ? scene.rest_state()
+                               : vector_of(numbers_of(base), scene.dimension(), "base");
             return array_of(read_pose(value_of(poses, "pose").document("pose"), scene, from));
           },
           py::arg("poses"), py::arg("base") = py::none(),

@@ -82,7 +82,7 @@ NormalEquations BudgetedCost::linearize(const Eigen::VectorXd& point, double blu
 
 namespace {
 
-py::object costs_of(BudgetedCost& call, const Doubles& points) {
+py::object costs_of(BudgetedCost& call, const Numbers& points) {
   const Eigen::MatrixXd columns = columns_of(points, call.dimension(), "points");
   if (!columns.allFinite()) throw Error("points: a number is not finite");
   const Eigen::VectorXd costs = without_gil([&] { return call.evaluate(columns); });
@@ -90,16 +90,14 @@ py::object costs_of(BudgetedCost& call, const Doubles& points) {
   return array_of(costs);
 }
 
-py::array residuals_of(BudgetedCost& call, const Doubles& points) {
+py::array residuals_of(BudgetedCost& call, const Numbers& points) {
   const Eigen::MatrixXd columns = columns_of(points, call.dimension(), "points");
   if (!columns.allFinite()) throw Error("points: a number is not finite");
   return rows_of<float>(without_gil([&] { return call.residuals(columns); }), points.ndim() == 1);
 }
 
-py::tuple equations_of(BudgetedCost& call, const Doubles& point, double blur) {
-  const Eigen::VectorXd at = vector_of(point, "point");
-  if (at.size() != call.dimension() || !at.allFinite())
-    throw Error("point: expected as many finite numbers as the search has");
+py::tuple equations_of(BudgetedCost& call, const Numbers& point, double blur) {
+  const Eigen::VectorXd at = finite_vector_of(point, call.dimension(), "point");
   check_blur(blur);
   const NormalEquations found = without_gil([&] { return call.linearize(at, blur); });
   return py::make_tuple(rows_of<double>(found.a), array_of(found.g));

@@ -28,7 +28,7 @@ class PythonStarter final : public Starter {
   std::optional<Eigen::VectorXd> do_state(const StarterContext& context) override {
     return in_python([&]() -> std::optional<Eigen::VectorXd> {
       const py::object answer = object_->get().attr("state")(frame_of(context), context.cameras);
-      if (!answer.is_none()) return vector_of(py::cast<Doubles>(answer), "its state");
+      if (!answer.is_none()) return vector_of(numbers_of(answer), "its state");
       if (context.frame) throw PluginError("its state() returned None although there is a frame");
       return std::nullopt;
     });
@@ -40,7 +40,7 @@ class PythonStarter final : public Starter {
                                                            context.scene.items()[model].name);
       if (poses.is_none()) return;
       for (const py::handle pose : poses) {
-        const Eigen::VectorXd parameters = vector_of(py::cast<Doubles>(pose), "a pose of find()");
+        const Eigen::VectorXd parameters = vector_of(numbers_of(pose), "a pose of find()");
         if (!without_gil([&] { return take(parameters); })) return;  // it may search
       }
     });

@@ -106,10 +106,52 @@ class Pictures(unittest.TestCase):
                                      background=np.zeros((10, 10, 3), np.uint8))
         with self.assertRaises(TypeError):
             hypotrack.Renderer(None)
-        with self.assertRaisesRegex(hypotrack.Error, "7 finite numbers"):
+        with self.assertRaisesRegex(hypotrack.Error, r"^state: .* shape \(7,\); found \(6,\)"):
             self.rig.renderer.render(np.zeros(6), camera)
-        with self.assertRaisesRegex(hypotrack.Error, "7 finite numbers"):
+        with self.assertRaisesRegex(hypotrack.Error, "^state: number 0 is nan; expected finite"):
             self.rig.renderer.render(np.full(7, np.nan), camera)
+
+
+class Shapes(unittest.TestCase):
+    """Messages of wrong arrays name the argument, what was found and what was expected."""
+
+    def refused(self, message, function, *arguments, **named):
+        with self.assertRaisesRegex(hypotrack.Error, message):
+            function(*arguments, **named)
+
+    def test_of_cameras(self):
+        camera = box.cameras()[0]
+        self.refused(r"^matrix: .* shape \(3, 3\); found \(4, 4\)", hypotrack.Camera, np.eye(4))
+        self.refused(r"^matrix: .* shape \(3, 3\); found list, of which numpy says: .*inhomogeneous",
+                     hypotrack.Camera, [[1, 2], [3]])
+        self.refused(r"^camera_from_world: .* shape \(4, 4\); found str, of which numpy says: .*'no'",
+                     hypotrack.Camera, np.eye(3), camera_from_world="no")
+        self.refused(r"^points: .* shape \(N, 3\) or \(3,\); found \(2, 4\)", camera.project,
+                     np.zeros((2, 4)))
+        self.refused(r"^points: .*; found dict", camera.project, {})
+
+    def test_of_distortion(self):
+        matrix = np.array([[300, 0, 160], [0, 300, 120], [0, 0, 1]])
+        for shape in [(5,), (1, 5), (5, 1)]:  # calibrateCamera() of OpenCV gives those of two axes
+            camera = hypotrack.Camera(matrix, (320, 240), np.full(shape, 0.01))
+            self.assertEqual(camera.distortion, [0.01] * 5)
+        self.refused(r"^distortion: .* shape \(K,\); found \(3, 3\)", hypotrack.Camera, matrix,
+                     distortion=np.eye(3))
+
+    def test_of_scenes_metrics_and_meshes(self):
+        scene = box.session().scene
+        self.refused(r"^state: .* shape \(7,\); found \(6,\)", scene.normalize, np.zeros(6))
+        self.refused(r"^base: .* shape \(7,\); found \(2, 7\)", scene.pose, {}, np.zeros((2, 7)))
+        self.refused(r"^states: .*; found list, of which numpy says", scene.landmarks, [[1, 2], [3]])
+        points = np.zeros((2, 1, 3))
+        self.refused(r"^truth: .* shape \(N, 1, 3\); found \(2, 1, 2\)", hypotrack.metrics, ["a.b"],
+                     points, points[:, :, :2])
+        self.refused(r"^times: .* shape \(2,\); found \(3,\)", hypotrack.metrics, ["a.b"], points,
+                     points, [1, 2, 3])
+        self.refused(r"^box: vertices: .* shape \(N, 3\); found \(8, 2\)", hypotrack.Session,
+                     box.scene(), meshes={"box": (box.VERTICES[:, :2], box.TRIANGLES)})
+        self.refused(r"^box: triangles: .*; found list", hypotrack.Session, box.scene(),
+                     meshes={"box": (box.VERTICES, [[1, 2, 3], [4]])})
 
 
 if __name__ == "__main__":

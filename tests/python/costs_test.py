@@ -60,13 +60,18 @@ class Costs(unittest.TestCase):
         ]:
             with self.assertRaisesRegex(hypotrack.Error, message):
                 self.cost(states)
-        with self.assertRaisesRegex(hypotrack.Error, "7 finite steps"):
+        with self.assertRaisesRegex(hypotrack.Error, r"^steps: .* shape \(7,\); found \(3,\)"):
             self.cost.jacobian(self.truth, np.ones(3))
+        with self.assertRaisesRegex(hypotrack.Error, r"^state: .* shape \(7,\); found \(2, 7\)"):
+            self.cost.jacobian(self.states[:2], np.ones(7))
+        with self.assertRaisesRegex(hypotrack.Error, r"^around: .* shape \(7,\); found \(6,\)"):
+            self.cost.look(self.rig.pictures(0), self.truth[:6])
         for blur in [np.nan, np.inf, -1]:
             with self.assertRaisesRegex(hypotrack.Error, "blur: expected pixels"):
                 self.cost.normal_equations(self.truth, np.full(7, 0.002), blur)
-        with self.assertRaises((TypeError, ValueError)):
-            self.cost("states")
+        for states in ["states", [[1, 2], [3]]]:
+            with self.assertRaisesRegex(hypotrack.Error, "^states: .*, of which numpy says: "):
+                self.cost(states)
 
     def test_need_a_frame(self):
         cost = box.session().frame_cost(self.rig.cameras)

@@ -160,7 +160,8 @@ class Optimizers(Plugins):
         messages = []
 
         def minimize(self, cost, region, budget, seed):
-            for points in [np.zeros(3), np.zeros((2, 3)), np.full(cost.dimension, np.nan)]:
+            for points in [np.zeros(3), np.zeros((2, 3)), np.full(cost.dimension, np.nan),
+                           [[1], []]]:
                 try:
                     cost(points)
                 except hypotrack.Error as error:
@@ -168,8 +169,9 @@ class Optimizers(Plugins):
 
         registered("optimizer", minimize=minimize)
         self.track(box.scene(optimizer={"type": "py_test"}, judge="none"), 1)
-        self.assertEqual(len(messages), 3)
-        self.assertIn("shape (N, 7) or (7,)", messages[0])
+        self.assertEqual(len(messages), 4)
+        self.assertIn("points: expected an array of shape (N, 7) or (7,); found (3,)", messages[0])
+        self.assertIn("found list, of which numpy says: ", messages[3])
         self.assertIn("not finite", messages[2])
 
     def test_a_cost_that_is_kept_is_over_after_its_search(self):
@@ -344,10 +346,23 @@ class Objectives(Plugins):
         for answer, message in [(lambda n: np.zeros(n + 1), "shape"),
                                 (lambda n: np.full(n, np.nan), "nan"),
                                 (lambda n: np.full(n, -np.inf), "-inf"),
-                                (lambda n: "none", "py_test"),
-                                (lambda n: None, "py_test")]:
+                                (lambda n: "none", "shape (8,); found str, of which numpy says"),
+                                (lambda n: [[1, 2], [3]], "shape (8,); found list, of which"),
+                                (lambda n: None, "shape (8,); found ()")]:
             registered("objective", costs=lambda self, h, answer=answer: answer(len(h)))
-            self.assertIn(message, self.error(box.scene(objective={"type": "py_test"})))
+            error = self.error(box.scene(objective={"type": "py_test"}, judge="none",
+                                         optimizer={"type": "pso", "particles": 8}))
+            self.assertIn("objective 'py_test'", error)
+            self.assertIn(message, error)
+
+    def test_an_optimizer_that_needs_residuals_is_refused(self):
+        registered("objective", costs=lambda self, h: np.zeros(len(h)))
+        error = self.error(box.scene(objective={"type": "py_test"},
+                                     optimizer={"type": "levenberg_marquardt"}),
+                           hypotrack.ConfigError)
+        for part in ["objective: the optimizer needs residuals", "py_test", "no residuals",
+                     "optimizer: {type: pso}"]:
+            self.assertIn(part, error)
 
     def test_what_it_reads_is_refused_if_there_is_no_such_picture(self):
         registered("objective", costs=lambda self, h: np.zeros(len(h)), reads=("colour",))
@@ -412,6 +427,18 @@ class Judges(Plugins):
                                                 "uncertain"), ({"odds": -9}, "lost")]:
             scene = box.scene(judge={"type": "py_test", **judge})
             self.assertEqual(self.track(scene, 1)[0].status.name, status, judge)
+
+    def test_have_no_parameter_with_the_name_of_a_threshold(self):
+        class Judge:
+            def __init__(self, tracked_above: float = 0.5):
+                pass
+
+            def log_odds(self, measures):
+                return 0
+
+        with self.assertRaisesRegex(hypotrack.PluginError, "Judge: the parameter 'tracked_above'.*"
+                                                           "threshold.*; name it otherwise"):
+            hypotrack.register("judge", "py_test", Judge)
 
     def test_that_raise_or_have_no_answer_are_named(self):
         for answer, message in [(lambda: 1 / 0, "(?s)judge 'py_test'.*ZeroDivisionError"),
