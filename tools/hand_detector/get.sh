@@ -42,7 +42,9 @@ download() {
   local why='npm failed'
   command -v curl >/dev/null && why=$(curl --fail --silent --show-error --location --retry 2 \
     --connect-timeout 20 --output "$archive" "$address" 2>&1) && return
-  fail "$address cannot be downloaded (${why##*$'\n'}). Where there is no network, bring that file from" \
+  # curl explains some errors in further lines.
+  why=$(grep '^curl: ' <<<"$why" | tail --lines=1 || echo "$why")
+  fail "$address cannot be downloaded ($why). Where there is no network, bring that file from" \
     "another machine, and run: hypotrack get detector --archive $archive"
 }
 

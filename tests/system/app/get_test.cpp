@@ -29,7 +29,7 @@ class GetTest : public AppTest {
 };
 
 TEST_F(GetTest, WithoutANetworkItSaysHowToGoOnAndLeavesNothing) {
-  program("curl", "echo 'curl: (6) Could not resolve host' >&2; exit 6");
+  program("curl", "echo 'curl: (6) Could not resolve host\nMore details here: x' >&2; exit 6");
   expect_refusal(
       get(), {"https://registry.npmjs.org/@mediapipe/hands/-/hands-0.4.1675469240.tgz "
               "cannot be downloaded (curl: (6) Could not resolve host). Where there is no network,",
