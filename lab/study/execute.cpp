@@ -165,6 +165,8 @@ void Execution::start(std::size_t index, RunFolder folder) {
   job.log = folder.log();
   job.descriptors = {{folder.lock_descriptor(), folder.lock_descriptor()}};
   if (const auto gpu = gpus_.find(run.cell); gpu != gpus_.end()) job.gpu = gpu->second;
+  const auto gpu = job.gpu ? crew_.next_gpu() : std::nullopt;
+  if (gpu) order_.begins(index, *gpu);
   crew_.start(std::move(job));
   working_.emplace(index, std::move(folder));
 }

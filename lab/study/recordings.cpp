@@ -144,12 +144,23 @@ void Recordings::remove_if_read(std::size_t run) {
   const bool read = std::ranges::all_of(readers->second, [&](std::size_t reader) {
     return folder_.state(plan_.runs[reader]) == RunState::ok;
   });
-  auto claimed = read ? folder_.claim_recording(id->second) : std::nullopt;
+  if (!read) return;
+  try {
+    remove_in_thread(id->second);
+  } catch (const std::exception&) {  // no room for a lock, or no thread
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_.recording_path(id->second), ignored);
+  }
+}
+
+/// To remove gigabytes takes seconds, in which runs could begin.
+void Recordings::remove_in_thread(const std::string& id) {
+  auto claimed = folder_.claim_recording(id);
   if (!claimed) return;  // another process is faster
-  std::error_code error;
-  std::filesystem::rename(folder_.recording_path(id->second), claimed->working() / "read", error);
-  if (error) return;
-  // To remove gigabytes takes seconds, in which runs could begin.
+  std::filesystem::rename(folder_.recording_path(id), claimed->working() / "read");
+  std::erase_if(removals_, [](const std::future<void>& one) {
+    return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  });
   removals_.push_back(std::async(std::launch::async, [folder = *std::move(claimed)]() mutable {
     const RunFolder removed = std::move(folder);
   }));

@@ -31,7 +31,7 @@ std::string recording_id(const Plan& plan, const PlannedRun& run);
 /// Makes the recordings that the given runs (indices into the plan) read, each in a process of its
 /// own: those of the next runs first. Recordings whose noise is redrawn need much room on the disk,
 /// so those of two seeds are made at a time, and removed when the study has the runs that read
-/// them.
+/// them, while later ones are made.
 class Recordings {
  public:
   Recordings(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
@@ -65,6 +65,7 @@ class Recordings {
   std::size_t seeds_before(const Wanted& wanted, std::size_t run) const;
   bool take_in_hand(const Wanted& wanted, bool may_start);
   void finish(const Ended& ended);
+  void remove_in_thread(const std::string& id);
 
   const StudyFolder& folder_;
   const Plan& plan_;
@@ -78,8 +79,8 @@ class Recordings {
   std::size_t begun_ = 0;        ///< by this process
   Clock::time_point next_look_;
   std::map<std::size_t, RunFolder> working_;  ///< outlives the processes of pool_
-  ProcessPool pool_;
   std::vector<std::future<void>> removals_;
+  ProcessPool pool_;
 };
 
 /// Makes the first recordings of a study in a new folder, on cores that no run uses, while its

@@ -19,7 +19,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Chooses the order of runs. Seeds are made one after the other, as recordings of two at most are
 /// on the disk. Of a seed, runs that took long with earlier seeds begin first: a long one that
 /// begins last is alone at the end, while other cores and GPUs wait. Of several GPUs, each makes
-/// the runs that read the same pictures, which its worker keeps, before it helps another.
+/// the runs that read the same pictures, which its worker keeps, before it helps another. Runs
+/// without a time that begin on it together read different ones, for each is read once while others
+/// wait.
 class RunOrder {
  public:
   /// The plan must outlive the object.
@@ -32,20 +34,23 @@ class RunOrder {
 
   /// Returns which of some runs, in the order of the plan, is to begin on a GPU, if that is known.
   /// Runs of cells without a time come first. Precondition: there are some.
-  std::size_t next(std::span<const std::size_t> runs, std::optional<int> gpu = std::nullopt) {
+  std::size_t next(std::span<const std::size_t> runs, std::optional<int> gpu = std::nullopt) const {
     std::size_t best = runs.front();
     for (const std::size_t run : runs)
       if (plan_.runs[run].seed == plan_.runs[runs.front()].seed && rank(run, gpu) > rank(best, gpu))
         best = run;
-    if (gpu) gpus_.try_emplace(pictures_[best], *gpu);
-    ++begun_[pictures_[best]];
     return best;
+  }
+
+  /// Takes a run that begins on a GPU.
+  void begins(std::size_t run, int gpu) {
+    gpus_.try_emplace(pictures_[run], gpu);
+    ++begun_[pictures_[run]];
   }
 
  private:
   /// Returns whether no other GPU keeps the pictures of a run, how long it takes, and a number that
-  /// is lower the more runs read these pictures: runs that begin together read different ones, for
-  /// each picture is read once while others wait for it.
+  /// is lower the more runs have read these pictures.
   std::tuple<bool, double, int> rank(std::size_t run, std::optional<int> gpu) const {
     const auto home = gpus_.find(pictures_[run]);
     const auto time = seconds_.find(plan_.runs[run].cell);
@@ -59,7 +64,7 @@ class RunOrder {
   std::map<std::size_t, double> seconds_;  ///< by cell
   std::vector<std::string> pictures_;      ///< that runs read
   std::map<std::string, int> gpus_;        ///< that read them first
-  std::map<std::string, int> begun_;       ///< runs that read them
+  std::map<std::string, int> begun_;       ///< runs on GPUs that have read them
 };
 
 }  // namespace internal

@@ -24,7 +24,7 @@ class CpuRenderer : public HypothesisRenderer {
                static_cast<std::size_t>(std::max(threads_, tbb::info::default_concurrency()))),
         arena_(threads_) {
     if (!draws) return;
-    plan_ = std::make_unique<ScenePlan>(scene);
+    plan_ = std::make_unique<ScenePlan>(scene, ScenePlan::Surface::simplified);
     for (int i = 0; i < threads_; ++i) {
       drawers_.push_back(std::make_unique<HypothesisDrawer>(*plan_));
     }

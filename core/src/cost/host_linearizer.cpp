@@ -89,7 +89,7 @@ struct HostLinearizer::Impl {
   Impl(const Scene& own_scene, const std::vector<ObjectiveTerm>& scene_terms, int threads,
        int band_count)
       : scene(own_scene),
-        plan(scene),
+        plan(scene, ScenePlan::Surface::simplified),
         terms(scene_terms),
         bands(static_cast<std::size_t>(band_count)),
         neighbours(plan, threads),

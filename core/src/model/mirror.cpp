@@ -18,7 +18,7 @@ Eigen::Isometry3d mirrored_transform(const Eigen::Isometry3d& transform) {
 
 ModelData mirrored(const ModelData& data) {
   ModelData result = data;
-  for (Mesh* mesh : {&result.mesh, &result.drawn}) {
+  for (Mesh* mesh : {&result.mesh, &result.simplified}) {
     mesh->vertices.row(0) *= -1;
     // Mirroring reverses the orientation; reversing the winding restores it.
     mesh->triangles.row(1).swap(mesh->triangles.row(2));

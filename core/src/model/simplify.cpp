@@ -32,7 +32,7 @@ Mesh part_of(const Mesh& mesh, const std::vector<unsigned>& triangles) {
 double simplify(ModelData& data, double tolerance) {
   constexpr std::size_t kWorth = 2;  // times fewer triangles
   const Mesh& mesh = data.mesh;
-  data.drawn = {};
+  data.simplified = {};
   const std::vector<unsigned> all(mesh.triangles.data(),
                                   mesh.triangles.data() + mesh.triangles.size());
   const auto vertices = static_cast<std::size_t>(mesh.vertices.cols());
@@ -45,7 +45,7 @@ double simplify(ModelData& data, double tolerance) {
                                 vertices, kStride, 0, static_cast<float>(tolerance) / size, 0,
                                 &error));
   if (fewer.empty() || kWorth * fewer.size() > all.size()) return 0;
-  data.drawn = part_of(mesh, fewer);
+  data.simplified = part_of(mesh, fewer);
   return static_cast<double>(error * size);
 }
 

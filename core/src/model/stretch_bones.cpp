@@ -20,7 +20,7 @@ void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches) {
         stretches[static_cast<std::size_t>(bone.parent)](bone.parent_from_bone.translation());
   }
   const std::vector<Eigen::Isometry3d> after = bind_transforms(data);
-  for (Mesh* mesh : {&data.mesh, &data.drawn})
+  for (Mesh* mesh : {&data.mesh, &data.simplified})
     for (Eigen::Index v = 0; v < mesh->vertices.cols(); ++v) {
       const Eigen::Vector3d vertex = mesh->vertices.col(v).cast<double>();
       Eigen::Vector3d moved = Eigen::Vector3d::Zero();
@@ -48,7 +48,7 @@ void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches) {
 
 void scale_model(ModelData& data, double factor) {
   data.mesh.vertices *= static_cast<float>(factor);
-  data.drawn.vertices *= static_cast<float>(factor);
+  data.simplified.vertices *= static_cast<float>(factor);
   for (Bone& bone : data.bones) bone.parent_from_bone.translation() *= factor;
   for (BoneMotion& motion : data.motions) {
     if (motion.kind == MotionKind::translation) motion.scale *= factor;

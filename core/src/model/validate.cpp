@@ -31,7 +31,7 @@ class Validator {
   void run() const {
     check_bones();
     check_surface(data_.mesh);
-    if (data_.drawn.triangles.cols() > 0) check_surface(data_.drawn);
+    if (data_.simplified.triangles.cols() > 0) check_surface(data_.simplified);
     check_texture();
     check_parameters();
     check_motions();

@@ -8,11 +8,11 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Returns the mesh that evaluations draw.
-inline const Mesh& drawn_mesh(const Model& model) {
+/// Returns the mesh by which hypotheses are scored.
+inline const Mesh& simplified_mesh(const Model& model) {
   const ModelData& data = model.data();
-  const bool is_simplified = data.drawn.triangles.cols() > 0 && !model.poses_itself();
-  return is_simplified ? data.drawn : data.mesh;
+  const bool is_simplified = data.simplified.triangles.cols() > 0 && !model.poses_itself();
+  return is_simplified ? data.simplified : data.mesh;
 }
 
 /// Returns true if a mesh is the outer surface of solid bodies. Then every edge joins two triangles

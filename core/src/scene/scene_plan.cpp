@@ -24,7 +24,7 @@ AlignedFloats to_aligned(const std::vector<float>& from) {
 
 }  // namespace
 
-ScenePlan::ScenePlan(const Scene& scene) {
+ScenePlan::ScenePlan(const Scene& scene, Surface surface) : surface_(surface) {
   for (const Scene::Item& item : scene.items()) {
     if (!item.model->poses_itself()) add_skinned(item);
   }
@@ -39,9 +39,13 @@ ScenePlan::ScenePlan(const Scene& scene) {
   }
 }
 
+const Mesh& ScenePlan::mesh_of(const Model& model) const {
+  return surface_ == Surface::whole ? model.data().mesh : simplified_mesh(model);
+}
+
 void ScenePlan::add_skinned(const Scene::Item& item) {
   const ModelData& data = item.model->data();
-  const Mesh& mesh = drawn_mesh(*item.model);
+  const Mesh& mesh = mesh_of(*item.model);
   skinned.push_back({BonePoser(data), item.offset, item.model->dimension(), bone_count});
   const std::vector<int> order = order_by_bones(mesh);
   std::vector<std::uint32_t> new_index(order.size());
@@ -96,7 +100,7 @@ void ScenePlan::add_posed(const Scene::Item& item) {
 }
 
 void ScenePlan::add_part(const Scene::Item& item) {
-  const auto count = static_cast<std::size_t>(drawn_mesh(*item.model).vertices.cols());
+  const auto count = static_cast<std::size_t>(mesh_of(*item.model).vertices.cols());
   parts.push_back({&item, vertex_count, static_cast<std::uint32_t>(count)});
   vertex_count += round_up(count);
 }

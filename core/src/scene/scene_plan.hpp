@@ -40,8 +40,11 @@ struct ScenePlan {
     std::uint32_t vertex_count = 0;
   };
 
+  /// The meshes of the models, or what stands for them where hypotheses are scored.
+  enum class Surface { whole, simplified };
+
   /// The scene must outlive the plan.
-  explicit ScenePlan(const Scene& scene);
+  explicit ScenePlan(const Scene& scene, Surface surface = Surface::whole);
   ScenePlan(const ScenePlan&) = delete;
   ScenePlan& operator=(const ScenePlan&) = delete;
 
@@ -56,12 +59,14 @@ struct ScenePlan {
   std::uint32_t triangle_count = 0;
 
  private:
+  const Mesh& mesh_of(const Model& model) const;
   void add_skinned(const Scene::Item& item);
   void add_posed(const Scene::Item& item);
   void add_part(const Scene::Item& item);
   void add_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& new_index);
   void add_block(const Mesh& mesh, int first_bone, const int* vertices, int count);
 
+  Surface surface_;
   std::vector<float> positions_, weights_;
   AlignedFloats aligned_positions_, aligned_weights_;
 };

@@ -136,7 +136,9 @@ std::unique_ptr<Scene> ShapeTargets::reshaped(const Scene& scene, const Eigen::V
   for (const int i : models_) {
     auto& model = models[static_cast<std::size_t>(i)].second;
     ModelData data = model->shaped(shape);
-    data.mesh.vertices -= static_cast<float>(thinner) * vertex_normals(data.mesh);
+    for (Mesh* mesh : {&data.mesh, &data.simplified})
+      if (mesh->triangles.cols() > 0)
+        mesh->vertices -= static_cast<float>(thinner) * vertex_normals(*mesh);
     model = std::make_shared<Reshaped>(std::move(data));
   }
   return std::make_unique<Scene>(std::move(models));

@@ -59,9 +59,10 @@ struct RigidMeshParams {
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});
     v("origin", origin, {.help = "the model's origin: centre of its bounding box, or the file's"});
     v("simplify_mm", simplify,
-      {.help = "evaluations draw fewer triangles, at most about so far from the mesh; 0: all",
+      {.help = "deviation, a root mean square, up to which hypotheses are scored with fewer "
+               "triangles; 0: all",
        .min = 0,
-       .max = 100,
+       .max = 5,
        .unit = "mm",
        .to_si = kMillimetre});
     v("anchors", anchors, {.help = "points for the error; default: three of the bounding box"});
@@ -83,7 +84,8 @@ double metres(Unit unit) {
   return 1;
 }
 
-ModelData make_object(const RigidMeshParams& params, const PluginContext& context) {
+/// `scale`: of the shape, by which the object is made larger or smaller afterwards.
+ModelData make_object(const RigidMeshParams& params, const PluginContext& context, double scale) {
   ImportedMesh imported =
       import_mesh(context, params.mesh,
                   {.scale = params.scale * metres(params.units), .texture = params.texture});
@@ -103,13 +105,13 @@ ModelData make_object(const RigidMeshParams& params, const PluginContext& contex
   for (const Anchor& anchor : params.anchors)
     landmarks.push_back({anchor.name, 0, anchor.position});
   ModelData data = rigid_model(std::move(imported.mesh), std::move(landmarks));
-  const double error = simplify(data, params.simplify);
-  if (data.drawn.triangles.cols() > 0)
+  const double error = simplify(data, params.simplify / scale);
+  if (data.simplified.triangles.cols() > 0)
     context.log().note(fmt::format(
-        "{}: evaluations draw {} triangles for its {}, about {:.2g} mm from them at most "
-        "(`simplify_mm`)",
-        params.mesh.string(), data.drawn.triangles.cols(), data.mesh.triangles.cols(),
-        error / kMillimetre));
+        "{}: hypotheses are scored with {} of its {} triangles, which deviate by {:.2g} mm (root "
+        "mean square; `simplify_mm`)",
+        params.mesh.string(), data.simplified.triangles.cols(), data.mesh.triangles.cols(),
+        scale * error / kMillimetre));
   return data;
 }
 
@@ -132,7 +134,7 @@ class RigidMesh : public Model {
  public:
   using Params = RigidMeshParams;
   RigidMesh(const Params& params, PluginContext& context)
-      : RigidMesh(make_object(params, context), read_shape(params.shape, size_parameters())) {}
+      : RigidMesh(params, context, read_shape(params.shape, size_parameters())) {}
 
  private:
   std::vector<ShapeParameter> do_shape_parameters() const override {
@@ -143,6 +145,9 @@ class RigidMesh : public Model {
   ModelData do_shaped(std::span<const double> values) const override {
     return scaled(neutral_, values);
   }
+
+  RigidMesh(const Params& params, PluginContext& context, std::vector<double> shape)
+      : RigidMesh(make_object(params, context, shape[0]), shape) {}
 
   RigidMesh(const ModelData& neutral, std::vector<double> shape)
       : Model(scaled(neutral, shape)), neutral_(neutral), shape_(std::move(shape)) {}

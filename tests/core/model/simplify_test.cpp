@@ -57,14 +57,14 @@ float nearest_plane(const Mesh& mesh) {
   return nearest;
 }
 
-TEST(Simplify, DrawsFewTrianglesNearTheSurface) {
+TEST(Simplify, MakesFewTrianglesNearTheSurface) {
   ModelData data = ball();
   const double error = simplify(data, 0.5e-3);
   EXPECT_GT(error, 0);
   EXPECT_LE(error, 0.5e-3);
-  EXPECT_LT(data.drawn.triangles.cols() * 5, data.mesh.triangles.cols());
-  EXPECT_TRUE(internal::is_closed_outwards(data.drawn));
-  EXPECT_GT(nearest_plane(data.drawn), kRadius - 2e-3F);
+  EXPECT_LT(data.simplified.triangles.cols() * 5, data.mesh.triangles.cols());
+  EXPECT_TRUE(internal::is_closed_outwards(data.simplified));
+  EXPECT_GT(nearest_plane(data.simplified), kRadius - 2e-3F);
   EXPECT_EQ(data.mesh.vertices, ball().mesh.vertices);
   validate(data, "ball");
 }
@@ -72,10 +72,10 @@ TEST(Simplify, DrawsFewTrianglesNearTheSurface) {
 TEST(Simplify, LeavesASurfaceWithoutSpareTrianglesAsItIs) {
   ModelData data = ball(8, 12);
   EXPECT_EQ(simplify(data, 0.05e-3), 0);
-  EXPECT_EQ(data.drawn.triangles.cols(), 0);
+  EXPECT_EQ(data.simplified.triangles.cols(), 0);
   data = ball();
   EXPECT_EQ(simplify(data, 0), 0);
-  EXPECT_EQ(data.drawn.triangles.cols(), 0);
+  EXPECT_EQ(data.simplified.triangles.cols(), 0);
 }
 
 TEST(Simplify, IsScaledAndMirroredWithTheModel) {
@@ -83,26 +83,26 @@ TEST(Simplify, IsScaledAndMirroredWithTheModel) {
   simplify(data, 0.5e-3);
   ModelData scaled = data;
   scale_model(scaled, 2);
-  EXPECT_TRUE(scaled.drawn.vertices.isApprox(2 * data.drawn.vertices));
+  EXPECT_TRUE(scaled.simplified.vertices.isApprox(2 * data.simplified.vertices));
   const ModelData other = mirrored(data);
-  EXPECT_TRUE(internal::is_closed_outwards(other.drawn));
-  EXPECT_EQ(other.drawn.vertices.row(0), -data.drawn.vertices.row(0));
+  EXPECT_TRUE(internal::is_closed_outwards(other.simplified));
+  EXPECT_EQ(other.simplified.vertices.row(0), -data.simplified.vertices.row(0));
 }
 
-TEST(Simplify, IsWhatEvaluationsDraw) {
+TEST(Simplify, MakesWhatHypothesesAreScoredWith) {
   ModelData data = ball();
-  const auto whole = std::make_shared<const Model>(data);
   simplify(data, 0.5e-3);
-  const auto fewer = std::make_shared<const Model>(data);
-  const Scene all({{"ball", whole}}), some({{"ball", fewer}});
-  EXPECT_LT(internal::ScenePlan(some).triangle_count * 4, internal::ScenePlan(all).triangle_count);
-  EXPECT_LT(internal::ScenePlan(some).vertex_count * 4, internal::ScenePlan(all).vertex_count);
+  const Scene scene({{"ball", std::make_shared<const Model>(data)}});
+  const internal::ScenePlan whole(scene);
+  const internal::ScenePlan simplified(scene, internal::ScenePlan::Surface::simplified);
+  EXPECT_LT(simplified.triangle_count * 4, whole.triangle_count);
+  EXPECT_LT(simplified.vertex_count * 4, whole.vertex_count);
 }
 
 TEST(Simplify, ItsSurfaceIsValidatedToo) {
   ModelData data = ball();
   simplify(data, 0.5e-3);
-  data.drawn.triangles(0, 0) = static_cast<int>(data.drawn.vertices.cols());
+  data.simplified.triangles(0, 0) = static_cast<int>(data.simplified.vertices.cols());
   EXPECT_THROW(validate(data, "ball"), DataError);
 }
 

@@ -42,6 +42,7 @@ TEST(ShapeTargets, AreThinnerByWhatIsAskedFor) {
   const Eigen::Matrix3Xf& full = as_it_is->items()[2].model->data().mesh.vertices;
   const Eigen::Matrix3Xf& thin = thinner->items()[2].model->data().mesh.vertices;
   EXPECT_TRUE((full - thin).colwise().norm().isApproxToConstant(0.002f, 1e-3f));
+  EXPECT_EQ(thinner->items()[2].model->data().simplified.vertices, thin);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_LT(thin.row(axis).maxCoeff(), full.row(axis).maxCoeff() - 0.0005f) << axis;
     EXPECT_GT(thin.row(axis).minCoeff(), full.row(axis).minCoeff() + 0.0005f) << axis;

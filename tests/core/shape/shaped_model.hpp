@@ -27,6 +27,7 @@ class ShapedHand final : public Model {
 
   static ModelData built(const std::vector<double>& values) {
     ModelData data = make_test_hand();
+    data.simplified = data.mesh;
     std::vector<BoneStretch> stretches(data.bones.size());
     for (const BoneMotion& r : data.motions) {
       const Parameter& p = data.parameters[static_cast<std::size_t>(r.parameter)];

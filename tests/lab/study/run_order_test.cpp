@@ -42,16 +42,25 @@ TEST_F(RunOrderTest, BeginsWithCellsWithoutATime) {
 
 TEST_F(RunOrderTest, RunsThatBeginTogetherReadDifferentPictures) {
   study::RunOrder order(two_scenes_);
-  EXPECT_EQ(order.next(std::array<std::size_t, 4>{0, 1, 2, 3}), 0U);
-  EXPECT_EQ(order.next(std::array<std::size_t, 3>{1, 2, 3}), 2U);
-  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}), 1U);
+  EXPECT_EQ(order.next(std::array<std::size_t, 4>{0, 1, 2, 3}, 0), 0U);
+  order.begins(0, 0);
+  EXPECT_EQ(order.next(std::array<std::size_t, 3>{1, 2, 3}, 0), 2U);
+  order.begins(2, 0);
+  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}, 0), 1U);
+  order.took(1, 1.0);
+  order.took(3, 2.0);
+  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}, 0), 3U);  // it takes longer
 }
 
 TEST_F(RunOrderTest, AGpuKeepsToItsPicturesWhileItCan) {
   study::RunOrder order(two_scenes_);
   EXPECT_EQ(order.next(std::array<std::size_t, 4>{0, 1, 2, 3}, 0), 0U);
+  order.begins(0, 0);
+  order.took(1, 9.0);
   EXPECT_EQ(order.next(std::array<std::size_t, 3>{1, 2, 3}, 1), 2U);
-  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}, 1), 3U);
+  order.begins(2, 1);
+  order.took(3, 1.0);
+  EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}, 1), 3U);  // though 1 takes longer
   EXPECT_EQ(order.next(std::array<std::size_t, 1>{1}, 1), 1U);  // helps the other one
 }
 

@@ -173,7 +173,7 @@ void write_plane(const std::filesystem::path& file, int cells) {
     }
 }
 
-TEST_F(RigidMesh, EvaluationsDrawFewTrianglesAndTheRunSaysHowMany) {
+TEST_F(RigidMesh, HypothesesAreScoredWithFewTrianglesAsTheRunSays) {
   write_plane(file_, 40);
   const auto notes = std::make_shared<PluginNotes>();
   const auto make = [&](const std::string& more) {
@@ -183,13 +183,14 @@ TEST_F(RigidMesh, EvaluationsDrawFewTrianglesAndTheRunSaysHowMany) {
   };
   const auto plane = make("");
   EXPECT_EQ(plane->data().mesh.triangles.cols(), 3200);
-  EXPECT_LT(plane->data().drawn.triangles.cols(), 100);
-  EXPECT_THAT(notes->take_lines(),
-              testing::ElementsAre(testing::AllOf(
-                  testing::HasSubstr(fmt::format("evaluations draw {} triangles for its 3200",
-                                                 plane->data().drawn.triangles.cols())),
-                  testing::HasSubstr("simplify_mm"))));
-  EXPECT_EQ(make(", simplify_mm: 0")->data().drawn.triangles.cols(), 0);
+  EXPECT_LT(plane->data().simplified.triangles.cols(), 100);
+  EXPECT_THAT(
+      notes->take_lines(),
+      testing::ElementsAre(testing::AllOf(
+          testing::HasSubstr(fmt::format("hypotheses are scored with {} of its 3200 triangles",
+                                         plane->data().simplified.triangles.cols())),
+          testing::HasSubstr("simplify_mm"))));
+  EXPECT_EQ(make(", simplify_mm: 0")->data().simplified.triangles.cols(), 0);
   EXPECT_THAT(notes->take_lines(), testing::IsEmpty());
 }
 

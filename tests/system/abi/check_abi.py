@@ -138,7 +138,7 @@ def check(include, build, compiler, flags, update, folder):
         print(f"The binary interface is that of kAbiVersion {number}")
         return 0
     print(f"{said}The binary interface is no longer that of kAbiVersion {number}. Take the change back, or "
-          f"raise kAbiVersion\nin hypotrack/plugin.hpp (a patch version may not) and then run\n{again}")
+          f"raise kAbiVersion\nin hypotrack/plugin/plugin.hpp (a patch version may not) and then run\n{again}")
     return 1
 
 

@@ -106,13 +106,14 @@ struct ModelData {
   std::vector<Parameter> parameters;
   std::vector<BoneMotion> motions;
   std::vector<Landmark> landmarks;
-  /// Fewer triangles of nearly the same surface, without texture, which evaluations draw to be
-  /// faster; without triangles, they draw `mesh`. Not for models that pose themselves.
-  Mesh drawn = {};
+  /// Fewer triangles of nearly the same surface, without texture, for scoring hypotheses. Without
+  /// triangles, and for models that pose themselves, `mesh` is scored.
+  Mesh simplified = {};
 };
 
-/// Fills `drawn` of a rigid object with triangles that differ from its mesh by about `tolerance`
-/// (metres) at most; leaves it empty if that is more than half as many. Returns the difference.
+/// Fills `simplified` of valid data with triangles that deviate by `tolerance` at most, a root mean
+/// square around a corner, in metres. Leaves it empty if they are more than half as many. Returns
+/// the deviation.
 HYPOTRACK_API double simplify(ModelData& data, double tolerance);
 
 /// Throws DataError, naming `where`, if the data breaks a contract above. Examples are missing

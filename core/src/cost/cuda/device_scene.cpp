@@ -32,7 +32,7 @@ std::vector<int> order_by_work(const Mesh& mesh) {
 }
 
 void HostSurface::add(const Model& model) {
-  const Mesh& mesh = drawn_mesh(model);
+  const Mesh& mesh = simplified_mesh(model);
   const std::size_t first_vertex = vertices.size();
   const std::vector<int> order = order_by_work(mesh);
   add_vertices(mesh, order, bones);
@@ -90,7 +90,7 @@ std::string why_not_on_device(const Scene& scene) {
     if (item.model->poses_itself()) {
       return fmt::format("model '{}' poses itself, which only the CPU can do", item.name);
     }
-    vertices += drawn_mesh(*item.model).vertices.cols();
+    vertices += simplified_mesh(*item.model).vertices.cols();
     bones += item.model->data().bones.size();
   }
   if (vertices > kVertexMask) {

@@ -22,7 +22,6 @@ void* huge_pages(std::size_t bytes) {
   void* const block = std::aligned_alloc(kHuge, rounded);
   if (!block) return nullptr;
   (void)madvise(block, rounded, MADV_HUGEPAGE);  // small pages do, too
-  (void)madvise(block, rounded, MADV_DONTFORK);  // a child would take pages that the GPU reads
   for (std::size_t i = 0; i < bytes; i += kPage) static_cast<volatile std::byte*>(block)[i] = {};
   return block;
 }
@@ -34,10 +33,13 @@ void* locked(std::size_t bytes, int device) {
       cudaThreadExchangeStreamCaptureMode(&mode) != cudaSuccess)
     return nullptr;
   void* const block = huge_pages(bytes);
-  if (block && cudaHostRegister(block, bytes, cudaHostRegisterPortable) == cudaSuccess)
-    return block;
-  std::free(block);
-  return nullptr;
+  if (!block || cudaHostRegister(block, bytes, cudaHostRegisterPortable) != cudaSuccess) {
+    std::free(block);
+    return nullptr;
+  }
+  // After a fork, whoever writes a page first gets a copy: the parent's would not be the GPU's.
+  (void)madvise(block, bytes, MADV_DONTFORK);
+  return block;
 }
 
 void* page_locked(std::size_t bytes, int device) {

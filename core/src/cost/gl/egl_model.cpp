@@ -27,13 +27,13 @@ void upload(GLenum target, GLuint buffer, const Matrix& data, GLenum usage) {
 EglModel::EglModel(const Scene::Item& item)
     : item_(&item),
       poser_(item.model->data()),
-      two_sided_(!is_closed_outwards(drawn_mesh(*item.model))),
+      two_sided_(!is_closed_outwards(simplified_mesh(*item.model))),
       vertex_array_(gl::make_vertex_array()),
       positions_(gl::make_buffer()),
       bones_(gl::make_buffer()),
       weights_(gl::make_buffer()),
       triangles_(gl::make_buffer()) {
-  const Mesh& mesh = drawn_mesh(*item.model);
+  const Mesh& mesh = simplified_mesh(*item.model);
   glBindVertexArray(vertex_array_);
   upload(GL_ARRAY_BUFFER, positions_, mesh.vertices, GL_DYNAMIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -88,7 +88,7 @@ void EglModel::bind() const {
 
 void EglModel::draw(int instances) const {
   glDrawElementsInstanced(GL_TRIANGLES,
-                          static_cast<GLsizei>(drawn_mesh(*item_->model).triangles.size()),
+                          static_cast<GLsizei>(simplified_mesh(*item_->model).triangles.size()),
                           GL_UNSIGNED_INT, nullptr, instances);
 }
 

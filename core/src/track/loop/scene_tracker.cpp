@@ -161,6 +161,13 @@ void SceneTracker::check(const Frame& frame) {
   });
 }
 
+ViewFault SceneTracker::fault_of(const Frame& frame) {
+  return arena_.execute([&] {
+    const PictureWatch::FrameEnd end(pictures_);
+    return pictures_.check(frame);
+  });
+}
+
 std::string SceneTracker::problem_of_start(const Frame& frame) const {
   if (!loop_.given.expects_any()) return {};
   return internal::problem_of_start(frame, loop_.trail.state(), loop_.tiles(),

@@ -50,7 +50,7 @@ class SceneTracker {
 
   /// Returns the fault of a frame that track() would report, without a search. Call it with frames
   /// in their order.
-  ViewFault fault_of(const Frame& frame) { return pictures_.check(frame); }
+  ViewFault fault_of(const Frame& frame);
 
   /// Returns a warning if frames like this one would count as lost or uncertain at the start; empty
   /// otherwise. The frame must be usable.

@@ -104,11 +104,11 @@ struct SurfaceSampler::Impl {
         single(std::vector{std::pair{item.name, item.model}}),
         grid_size(grid_for(item.model->data().mesh)),
         tiles(single, cameras, {grid_size, kSamplePadding}),
-        single_plan(single),
+        single_plan(single, ScenePlan::Surface::simplified),
         single_drawer(single_plan),
         surface(spread_points(item.model->data().mesh, kPoints)) {
     if (scene.items().size() == 1) return;
-    whole_plan = std::make_unique<ScenePlan>(scene);
+    whole_plan = std::make_unique<ScenePlan>(scene, ScenePlan::Surface::simplified);
     whole_drawer = std::make_unique<HypothesisDrawer>(*whole_plan);
   }
 
