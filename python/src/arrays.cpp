@@ -150,7 +150,7 @@ Numbers numbers_of(const py::handle& object) {
 }
 
 ColumnsMap columns_of(const Numbers& array, Eigen::Index dimension, const char* what) {
-  const bool some = array.array && (array.ndim() == 1 || array.ndim() == 2);
+  const bool some = array.ndim() == 1 || array.ndim() == 2;
   if (!some || array.shape(array.ndim() - 1) != dimension)
     array.refuse(what, fmt::format("(N, {0}) or ({0},)", dimension));
   return ColumnsMap(array.data(), dimension, array.ndim() == 1 ? 1 : array.shape(0));
@@ -165,13 +165,12 @@ py::array_t<double> array_of(const std::vector<double>& numbers) {
 py::array_t<double> points_of(const Eigen::Matrix3Xd& points) { return rows_of<double>(points); }
 
 Eigen::VectorXd vector_of(const Numbers& array, const char* what) {
-  if (!array.array || array.ndim() != 1) array.refuse(what, "(N,)");
+  if (array.ndim() != 1) array.refuse(what, "(N,)");
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.shape(0));
 }
 
 Eigen::VectorXd vector_of(const Numbers& array, Eigen::Index size, const char* what) {
-  if (!array.array || array.ndim() != 1 || array.shape(0) != size)
-    array.refuse(what, fmt::format("({},)", size));
+  if (array.ndim() != 1 || array.shape(0) != size) array.refuse(what, fmt::format("({},)", size));
   return vector_of(array, what);
 }
 
@@ -185,14 +184,14 @@ Eigen::VectorXd finite_vector_of(const Numbers& array, Eigen::Index size, const 
 
 Eigen::MatrixXd matrix_of(const Numbers& array, Eigen::Index rows, Eigen::Index columns,
                           const char* what) {
-  if (!array.array || array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != columns)
+  if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != columns)
     array.refuse(what, fmt::format("({}, {})", rows, columns));
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const RowMajor>(array.data(), rows, columns);
 }
 
 Eigen::Matrix3Xd matrix_of_points(const Numbers& array, const char* what) {
-  if (!array.array || array.ndim() != 2 || array.shape(1) != 3) array.refuse(what, "(N, 3)");
+  if (array.ndim() != 2 || array.shape(1) != 3) array.refuse(what, "(N, 3)");
   return Eigen::Map<const Eigen::Matrix3Xd>(array.data(), 3, array.shape(0));
 }
 

@@ -17,10 +17,10 @@ namespace hypotrack::python {
 /// no array of numbers is taken, too: the functions below refuse it, with the argument's name.
 struct Numbers {
   using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
-  Array array;             ///< null if it is none
+  Array array;             ///< null if it is none; ndim() is -1
   std::string found = {};  ///< the shape, or what was found instead
 
-  py::ssize_t ndim() const { return array.ndim(); }
+  py::ssize_t ndim() const { return array ? array.ndim() : -1; }
   py::ssize_t size() const { return array.size(); }
   py::ssize_t shape(py::ssize_t axis) const { return array.shape(axis); }
   const double* data() const { return array.data(); }

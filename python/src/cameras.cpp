@@ -43,10 +43,8 @@ Camera with_a_size(Camera camera) {
 /// Returns the coefficients of an array of one axis, or of the row or column that OpenCV gives.
 std::vector<double> coefficients_of(const Numbers& array) {
   py::ssize_t longest = 0;
-  for (py::ssize_t i = 0; array.array && i < array.ndim(); ++i)
-    longest = std::max(longest, array.shape(i));
-  if (!array.array || array.ndim() == 0 || longest != array.size())
-    array.refuse("distortion", "(K,)");
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) longest = std::max(longest, array.shape(i));
+  if (array.ndim() < 1 || longest != array.size()) array.refuse("distortion", "(K,)");
   return {array.data(), array.data() + array.size()};
 }
 

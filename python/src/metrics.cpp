@@ -33,7 +33,7 @@ py::object evaluate_run(const std::filesystem::path& run,
 /// Returns the frames (3xL each) of an array (N, L, 3).
 std::vector<Eigen::Matrix3Xd> frames_of(const Numbers& array, std::size_t landmarks,
                                         const char* what) {
-  if (!array.array || array.ndim() != 3 || array.shape(1) != static_cast<py::ssize_t>(landmarks) ||
+  if (array.ndim() != 3 || array.shape(1) != static_cast<py::ssize_t>(landmarks) ||
       array.shape(2) != 3)
     array.refuse(what, fmt::format("(N, {}, 3)", landmarks));
   std::vector<Eigen::Matrix3Xd> frames;

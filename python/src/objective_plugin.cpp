@@ -101,7 +101,7 @@ class PythonObjective final : public Objective {
     in_python([&] {
       const py::object answer = object_->get().attr("costs")(copy_of(hypotheses));
       const Numbers numbers = numbers_of(answer);
-      if (!numbers.array || numbers.ndim() != 1 || numbers.shape(0) != std::ssize(costs))
+      if (numbers.ndim() != 1 || numbers.shape(0) != std::ssize(costs))
         throw PluginError(
             numbers.problem("what its costs() returned", fmt::format("({},)", costs.size())));
       std::memcpy(costs.data(), numbers.data(), costs.size_bytes());

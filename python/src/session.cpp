@@ -34,19 +34,19 @@ MeshArrays mesh_of(const std::string& name, const py::handle& object) {
   MeshArrays mesh;
   mesh.vertices =
       matrix_of_points(numbers_of(parts[0]), (name + ": vertices").c_str()).cast<float>();
+  const Eigen::Matrix3Xd indices =
+      matrix_of_points(numbers_of(parts[1]), (name + ": triangles").c_str());
   const auto corners = py::cast<py::array>(parts[1]);
   if (corners.dtype().kind() != 'i' && corners.dtype().kind() != 'u')
     fail("triangles: expected an array of integers");
-  const Eigen::Matrix3Xd indices =
-      matrix_of_points(numbers_of(parts[1]), (name + ": triangles").c_str());
   if ((indices.array().abs() > 1e9).any()) fail("triangles: an index is out of range");
   mesh.triangles = indices.cast<int>();
   if (parts.size() == 2 || parts[2].is_none()) return mesh;
+  const Eigen::Matrix3Xd rgb = matrix_of_points(numbers_of(parts[2]), (name + ": colors").c_str());
   const auto colors = py::cast<py::array>(parts[2]);
   if (colors.dtype().kind() != 'u' || colors.itemsize() != 1)
     fail("colors: expected an array of uint8, RGB from 0 to 255");
-  mesh.colors =
-      matrix_of_points(numbers_of(parts[2]), (name + ": colors").c_str()).cast<std::uint8_t>();
+  mesh.colors = rgb.cast<std::uint8_t>();
   return mesh;
 }
 
