@@ -71,8 +71,8 @@ class CandidateFinder::ModelSearch {
   ModelFlags shown_, moving_;
   Recovery::Task task_;
   std::vector<Candidate> found_;
-  std::vector<Eigen::VectorXd> detected_;    ///< states proposed by starters that detect it
-  bool is_followed_ = false;                 ///< the frame's candidate shows the model
+  std::vector<Eigen::VectorXd> detected_;  ///< states proposed by starters that detect it
+  bool is_followed_ = false;               ///< the frame's candidate shows the model
   bool sure_ = false;
 };
 

@@ -67,9 +67,9 @@ struct StatusMeasures {
   double visible = 0;      ///< share of the models' vertices that project into every image
   double sigma = 0;        ///< mean over a model's landmarks, in metres; NaN: unknown
   ForegroundOverlap foreground_overlap = ForegroundOverlap::unknown;
-  bool in_view = true;      ///< false: a search of the whole pictures did not find the model
-  bool confirmed = false;   ///< searches from other starts ended in the same pose
-  bool detected = false;    ///< a detector sees the model near this pose
+  bool in_view = true;     ///< false: a search of the whole pictures did not find the model
+  bool confirmed = false;  ///< searches from other starts ended in the same pose
+  bool detected = false;   ///< a detector sees the model near this pose
 };
 
 /// Decides the status of a model in a frame. Where the pictures do not tell whether a pose is

@@ -30,8 +30,8 @@ std::span<const std::string_view> enum_names(StageStart);
 struct PipelineStage {
   std::string name;  ///< for messages
   std::unique_ptr<Optimizer> optimizer;
-  double share = 1;     ///< of the budget, relative to the other stages' shares; > 0
-  double spread = 1;    ///< factor of the region's spread for this stage; > 0
+  double share = 1;       ///< of the budget, relative to the other stages' shares; > 0
+  double spread = 1;      ///< factor of the region's spread for this stage; > 0
   bool fallback = false;  ///< skipped if the best cost so far is not above the usual
   Moves moves = Moves::all;
   StageStart from = StageStart::best;
