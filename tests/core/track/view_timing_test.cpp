@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "textured_pair.hpp"
+#include "track/loop/picture_watch.hpp"
 #include "track/rig/rig_watch.hpp"
 
 namespace hypotrack {
@@ -98,6 +99,19 @@ TEST_F(ViewTimingTest, ALateViewIsSaidWithinASecondOnceAndForgottenWhenItEnds) {
   for (int i = kSecond; i < 8 * kSecond; ++i) watch.look(late_frame(i, 0, in_place));
   EXPECT_FALSE(watch.is_doubtful());
   EXPECT_THAT(watch.take_notes(), IsEmpty());
+}
+
+TEST_F(ViewTimingTest, ALateViewIsDoubtedInTheFrameThatShowsIt) {
+  RigWatch alone = RigWatch::make(pair_.cameras).value();
+  PictureWatch beside(pair_.cameras, {}, true);
+  for (int i = 0; i < kSecond; ++i) {
+    const Frame frame = late_frame(i, 1, {});
+    alone.look(frame);
+    const PictureWatch::FrameEnd end(beside);
+    EXPECT_EQ(beside.check(frame).fault, FrameFault::none);
+    EXPECT_EQ(beside.doubts_depth({}, nullptr), alone.is_doubtful()) << i;
+  }
+  EXPECT_TRUE(alone.is_doubtful());
 }
 
 TEST_F(ViewTimingTest, FramesThatComeAtUnequalTimesHideNoLateView) {
