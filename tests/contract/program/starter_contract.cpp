@@ -128,7 +128,7 @@ void check_looking(Report& report, const Subject& subject, const StarterContext&
 
 }  // namespace
 
-void check_start(Report& report, const Subject& subject) {
+void check_starter(Report& report, const Subject& subject) {
   if (!check_parameters<Starter>(report, subject, true)) return;
   const Scene& scene = *subject.scene;
   const Surroundings with_truth(scene, true), without(scene, false);
