@@ -9,7 +9,7 @@
 namespace hypotrack {
 namespace {
 
-/// A scene of one model, and the start.
+/// A scene of one model, and the starter.
 struct Search {
   explicit Search(const std::string& model)
       : scene({{"hand", PluginLoader().make<Model>(ConfigNode::parse(model, "test"), nullptr)}}) {}
@@ -17,7 +17,7 @@ struct Search {
   /// Returns the landmarks of the first pose that is proposed; none if there is none.
   Eigen::Matrix3Xd first(const test::HandPictures& pictures) {
     Eigen::Matrix3Xd out(3, 0);
-    start->find({scene, pictures.cameras, &pictures.frame}, 0, [&](const Eigen::VectorXd& pose) {
+    starter->find({scene, pictures.cameras, &pictures.frame}, 0, [&](const Eigen::VectorXd& pose) {
       scene.check(pose, "the pose");
       out = scene.landmarks(pose);
       return false;
@@ -27,7 +27,7 @@ struct Search {
 
   Scene scene;
   std::shared_ptr<PluginNotes> notes = std::make_shared<PluginNotes>();
-  std::unique_ptr<Starter> start = PluginLoader().make<Starter>(
+  std::unique_ptr<Starter> starter = PluginLoader().make<Starter>(
       ConfigNode::parse("type: hand_landmarks", "test"), &scene, {}, nullptr, notes);
 };
 
