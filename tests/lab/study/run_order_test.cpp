@@ -61,7 +61,7 @@ TEST_F(RunOrderTest, AGpuKeepsToItsPicturesWhileItCan) {
   order.begins(2, 1);
   order.took(3, 1.0);
   EXPECT_EQ(order.next(std::array<std::size_t, 2>{1, 3}, 1), 3U);  // though 1 takes longer
-  EXPECT_EQ(order.next(std::array<std::size_t, 1>{1}, 1), 1U);  // helps the other one
+  EXPECT_EQ(order.next(std::array<std::size_t, 1>{1}, 1), 1U);     // helps the other one
 }
 
 TEST_F(RunOrderTest, FinishesASeedBeforeTheNext) {
