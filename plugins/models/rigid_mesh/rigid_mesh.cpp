@@ -46,7 +46,7 @@ struct RigidMeshParams {
   double scale = 1;
   std::filesystem::path texture;
   Origin origin = Origin::center;
-  double simplify = 0.2e-3;
+  double simplify = 0.5e-3;
   std::vector<Anchor> anchors;
   ShapeSettings shape;
 
@@ -59,8 +59,8 @@ struct RigidMeshParams {
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});
     v("origin", origin, {.help = "the model's origin: centre of its bounding box, or the file's"});
     v("simplify_mm", simplify,
-      {.help = "deviation, a root mean square, up to which hypotheses are scored with fewer "
-               "triangles; 0: all",
+      {.help = "distance from the mesh within which hypotheses are scored with fewer triangles; "
+               "0: all",
        .min = 0,
        .max = 5,
        .unit = "mm",
@@ -108,8 +108,8 @@ ModelData make_object(const RigidMeshParams& params, const PluginContext& contex
   const double error = simplify(data, params.simplify / scale);
   if (data.simplified.triangles.cols() > 0)
     context.log().note(fmt::format(
-        "{}: hypotheses are scored with {} of its {} triangles, which deviate by {:.2g} mm (root "
-        "mean square; `simplify_mm`)",
+        "{}: hypotheses are scored with {} triangles for its {}, which are up to {:.2g} mm away "
+        "(`simplify_mm`)",
         params.mesh.string(), data.simplified.triangles.cols(), data.mesh.triangles.cols(),
         scale * error / kMillimetre));
   return data;

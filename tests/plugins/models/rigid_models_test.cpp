@@ -187,7 +187,7 @@ TEST_F(RigidMesh, HypothesesAreScoredWithFewTrianglesAsTheRunSays) {
   EXPECT_THAT(
       notes->take_lines(),
       testing::ElementsAre(testing::AllOf(
-          testing::HasSubstr(fmt::format("hypotheses are scored with {} of its 3200 triangles",
+          testing::HasSubstr(fmt::format("hypotheses are scored with {} triangles for its 3200",
                                          plane->data().simplified.triangles.cols())),
           testing::HasSubstr("simplify_mm"))));
   EXPECT_EQ(make(", simplify_mm: 0")->data().simplified.triangles.cols(), 0);

@@ -111,9 +111,8 @@ struct ModelData {
   Mesh simplified = {};
 };
 
-/// Fills `simplified` of valid data with triangles that deviate by `tolerance` at most, a root mean
-/// square around a corner, in metres. Leaves it empty if they are more than half as many. Returns
-/// the deviation.
+/// Fills `simplified` of valid data with triangles at most `tolerance` (metres) from vertices of
+/// the mesh. Leaves it empty if that takes more than half as many. Returns the largest distance.
 HYPOTRACK_API double simplify(ModelData& data, double tolerance);
 
 /// Throws DataError, naming `where`, if the data breaks a contract above. Examples are missing
