@@ -14,14 +14,14 @@
 namespace hypotrack::cuda::internal {
 namespace {
 
-/// Returns memory in huge pages, which a driver locks in half of the time that its own takes; null
-/// if there is none. Makes the pages: threads do that side by side, but lock one after the other.
+/// Returns memory in huge pages, or null. A driver locks them in half of the time that it needs for
+/// pages of its own. Threads touch pages side by side, but lock them one after the other.
 void* huge_pages(std::size_t bytes) {
   constexpr std::size_t kHuge = 2 << 20, kPage = 4 << 10;
   const std::size_t rounded = (bytes + kHuge - 1) / kHuge * kHuge;
   void* const block = std::aligned_alloc(kHuge, rounded);
   if (!block) return nullptr;
-  (void)madvise(block, rounded, MADV_HUGEPAGE);  // small pages do, too
+  (void)madvise(block, rounded, MADV_HUGEPAGE);  // if refused, small pages serve
   for (std::size_t i = 0; i < bytes; i += kPage) static_cast<volatile std::byte*>(block)[i] = {};
   return block;
 }
@@ -55,7 +55,7 @@ void* page_locked(std::size_t bytes, int device) {
 
 /// Makes the allocator, which is never destroyed because some images outlive everything else.
 PooledMatAllocator* make_allocator(int device, std::size_t most) {
-  constexpr std::size_t kShare = 256;  // for blocks of one size at once, which is faster
+  constexpr std::size_t kShare = 256;  // of the bound, reserved at once for images of one size
   auto* pool = new BlockPool([device](std::size_t n) { return page_locked(n, device); }, most,
                              most / kShare);
   return new PooledMatAllocator(*pool);
