@@ -1,66 +1,62 @@
 #include "color_model.hpp"
 
-#include <Eigen/Core>
-
 namespace hypotrack::skin {
 namespace {
+
+/// Numbers of all bins. Single precision, as smoothing takes most of the time.
+using Bins = Eigen::ArrayXf;
 
 /// Smooths counts along one axis of the bins, twice with weights 1, 2, 1: with 1, 4, 6, 4, 1, and 5
 /// for the first and the last level themselves, whose first share is lost beyond the end. `stride`
 /// is the distance between neighbouring levels.
-void spread_along(const std::vector<double>& counts, std::size_t stride, std::vector<double>& out) {
-  constexpr Eigen::Index kInner = kLevels - 4, kLast = kLevels - 1;
-  for (std::size_t first = 0; first < kBins; first += stride * kLevels) {
-    const auto size = static_cast<Eigen::Index>(stride);
-    const Eigen::Map<const Eigen::ArrayXXd> from(counts.data() + first, size, kLevels);
-    Eigen::Map<Eigen::ArrayXXd> to(out.data() + first, size, kLevels);
-    const auto inner = [&](Eigen::Index level) { return from.middleCols(level, kInner); };
-    to.middleCols(2, kInner) = 6 * inner(2) + 4 * (inner(1) + inner(3)) + (inner(0) + inner(4));
-    const auto spread_end = [&](Eigen::Index end, Eigen::Index inwards) {
-      const auto level = [&](Eigen::Index i) { return from.col(end + i * inwards); };
-      to.col(end) = 5 * level(0) + 4 * level(1) + level(2);
-      to.col(end + inwards) = 6 * level(1) + 4 * (level(0) + level(2)) + level(3);
+void spread_along(const Bins& counts, Eigen::Index stride, Bins& out) {
+  const Eigen::Index inner = counts.size() - 4 * stride;
+  const auto from = [&](Eigen::Index levels) { return counts.segment(levels * stride, inner); };
+  // In one go as if neighbouring rows were one, as rows are short. Their ends follow.
+  out.segment(2 * stride, inner) = 6 * from(2) + 4 * (from(1) + from(3)) + (from(0) + from(4));
+  constexpr Eigen::Index kLast = kLevels - 1;
+  using Planes = Eigen::OuterStride<>;
+  const auto spread_end = [&](Eigen::Index end, Eigen::Index inwards) {
+    const Eigen::Index rows = counts.size() / (stride * kLevels);
+    const auto level = [&](Eigen::Index i) {
+      return Eigen::Map<const Eigen::ArrayXXf, 0, Planes>(
+          counts.data() + (end + i * inwards) * stride, stride, rows, Planes(stride * kLevels));
     };
-    spread_end(0, 1);
-    spread_end(kLast, -1);
-  }
+    const auto to = [&](Eigen::Index i) {
+      return Eigen::Map<Eigen::ArrayXXf, 0, Planes>(out.data() + (end + i * inwards) * stride,
+                                                    stride, rows, Planes(stride * kLevels));
+    };
+    to(0) = 5 * level(0) + 4 * level(1) + level(2);
+    to(1) = 6 * level(1) + 4 * (level(0) + level(2)) + level(3);
+  };
+  spread_end(0, 1);
+  spread_end(kLast, -1);
 }
 
-/// Counts that are smoothed, and what to multiply them by to get the frequencies of colours.
-struct Smoothed {
-  std::vector<double> counts;
-  double share = 0;
-};
-
-Smoothed smooth(const std::vector<double>& counts) {
-  constexpr std::size_t kRow = kLevels, kPlane = kRow * kLevels;
-  Smoothed out{std::vector<double>(kBins)};
-  std::vector<double> between(kBins);
-  spread_along(counts, 1, out.counts);
-  spread_along(out.counts, kRow, between);
-  spread_along(between, kPlane, out.counts);
-  const double sum = Eigen::Map<const Eigen::ArrayXd>(out.counts.data(), kBins).sum();
-  out.share = sum > 0 ? 1 / sum : 0;
-  return out;
+/// Returns the frequencies of colours by their counts, which are smoothed.
+Bins frequencies(const Eigen::ArrayXd& counts) {
+  constexpr Eigen::Index kRow = kLevels, kPlane = kRow * kLevels;
+  Bins out = counts.cast<float>(), between(counts.size());
+  spread_along(out, 1, between);
+  spread_along(between, kRow, out);
+  spread_along(out, kPlane, between);
+  const float sum = between.sum();
+  return sum > 0 ? Bins(between / sum) : between;
 }
 
-/// Writes P of every bin.
-void write_ratios(const std::vector<double>& foreground, const std::vector<double>& background,
-                  std::vector<double>& ratios) {
+/// Returns P of every bin.
+Bins ratios(const Eigen::ArrayXd& foreground, const Eigen::ArrayXd& background) {
   // Frequency of a colour, one in a million pixels, that says nothing.
-  constexpr double kUnseen = 1e-6;
-  const Smoothed f = smooth(foreground), b = smooth(background);
-  for (std::size_t i = 0; i < kBins; ++i) {
-    const double here = f.share * f.counts[i];
-    ratios[i] = here / (here + b.share * b.counts[i] + kUnseen);
-  }
+  constexpr float kUnseen = 1e-6f;
+  const Bins f = frequencies(foreground), b = frequencies(background);
+  return f / (f + b + kUnseen);
 }
 
 /// A pixel that counts.
 struct Seen {
-  std::size_t bin;
-  double prior;
-  double weight;  ///< as background
+  Eigen::Index bin;
+  float prior;
+  float weight;  ///< as background
 };
 
 std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior,
@@ -71,8 +67,7 @@ std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior,
     for (int x = 0; x < color.cols; ++x) {
       const cv::Vec3b& p = color(y, x);
       if (!(prior(y, x) >= 0)) continue;
-      out.push_back({static_cast<std::size_t>(bin_of(p[0], p[1], p[2])), double{prior(y, x)},
-                     double{weight(y, x)}});
+      out.push_back({bin_of(p[0], p[1], p[2]), prior(y, x), weight(y, x)});
     }
   }
   return out;
@@ -81,37 +76,36 @@ std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior,
 }  // namespace
 
 void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::Mat1f& weight) {
-  const int rounds = ratio_.empty() ? 12 : 5;  // it begins near the answer after the first image
+  const int rounds = ratio_.size() == 0 ? 12 : 5;  // begins near the answer after the first image
   const std::vector<Seen> pixels = seen_pixels(color, prior, weight);
-  if (ratio_.empty()) ratio_.assign(kBins, 0.5);
-  for (double& ratio : ratio_) ratio = (ratio + 0.5) / 2;  // a colour may have changed sides
-  Counts foreground, background;
+  if (ratio_.size() == 0) ratio_ = Bins::Constant(kBins, 0.5f);
+  ratio_ = (ratio_ + 0.5f) / 2;  // a colour may have changed sides
+  Eigen::ArrayXd foreground, background;
   for (int round = 0; round < rounds; ++round) {
     foreground = foreground_;
     background = background_;
     for (const Seen& pixel : pixels) {
-      const double f = ratio_[pixel.bin] * pixel.prior;
-      const double b = (1 - ratio_[pixel.bin]) * (1 - pixel.prior);
-      const double share = f + b > 0 ? f / (f + b) : 0;
-      foreground[pixel.bin] += share;
-      background[pixel.bin] += pixel.weight * (1 - share);
+      const float f = ratio_[pixel.bin] * pixel.prior;
+      const float b = (1 - ratio_[pixel.bin]) * (1 - pixel.prior);
+      const float share = f + b > 0 ? f / (f + b) : 0;
+      foreground[pixel.bin] += double{share};
+      background[pixel.bin] += double{pixel.weight * (1 - share)};
     }
-    write_ratios(foreground, background, ratio_);
+    ratio_ = ratios(foreground, background);
   }
   foreground_ = foreground;
   background_ = background;
 }
 
 std::vector<float> ColorModel::probabilities() const {
-  if (ratio_.empty()) return std::vector<float>(kBins, 0.0f);
+  if (ratio_.size() == 0) return std::vector<float>(kBins, 0.0f);
   return {ratio_.begin(), ratio_.end()};
 }
 
 std::vector<ColorFrequency> ColorModel::color_frequencies() const {
-  const Smoothed f = smooth(foreground_), b = smooth(background_);
-  std::vector<ColorFrequency> out(kBins);
-  for (std::size_t i = 0; i < kBins; ++i)
-    out[i] = {static_cast<float>(f.share * f.counts[i]), static_cast<float>(b.share * b.counts[i])};
+  const Bins f = frequencies(foreground_), b = frequencies(background_);
+  std::vector<ColorFrequency> out;
+  for (Eigen::Index i = 0; i < f.size(); ++i) out.push_back({f[i], b[i]});
   return out;
 }
 

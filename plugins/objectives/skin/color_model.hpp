@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -25,10 +26,10 @@ class ColorModel {
   std::vector<ColorFrequency> color_frequencies() const;
 
  private:
-  using Counts = std::vector<double>;
-  Counts foreground_ = Counts(kBins);
-  Counts background_ = Counts(kBins);
-  std::vector<double> ratio_;  // P; empty before the first image
+  // Double precision, as counts grow with every image.
+  Eigen::ArrayXd foreground_ = Eigen::ArrayXd::Zero(kBins);
+  Eigen::ArrayXd background_ = Eigen::ArrayXd::Zero(kBins);
+  Eigen::ArrayXf ratio_;  // P; empty before the first image
 };
 
 }  // namespace hypotrack::skin
