@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -14,7 +15,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 class Appearance {
  public:
   /// Takes the colours of all points as seen once.
-  void expect(std::vector<cv::Vec3f> colors);
+  void expect(const std::vector<cv::Vec3f>& colors);
 
   /// Updates the running mean colour of every point that the samples show. Older colours fade.
   void learn(const SurfaceSamples& samples);
@@ -25,8 +26,8 @@ class Appearance {
   double likeness(const SurfaceSamples& samples) const;
 
  private:
-  std::vector<cv::Vec3f> colors_;
-  std::vector<float> times_;  ///< frames in which each point was seen
+  std::vector<Eigen::Array4f> colors_;  ///< B, G, R and 0
+  std::vector<float> times_;            ///< frames in which each point was seen
 };
 
 }  // namespace internal

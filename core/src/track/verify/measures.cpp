@@ -1,5 +1,6 @@
 #include <oneapi/tbb/parallel_invoke.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -58,19 +59,54 @@ double plain_correlation(const Pairs& pairs) {
   return sums.correlation(kFaintContrast);
 }
 
-/// Subtracts from each colour the weighted mean of its patch.
-cv::Mat3f without_local_mean(const cv::Mat3f& color, const cv::Mat1f& weight,
-                             const cv::Mat1f& weight_sum) {
-  cv::Mat3f weighted, local;
-  cv::Mat weights[] = {weight, weight, weight};
-  cv::Mat3f weight3;
-  cv::merge(weights, 3, weight3);
-  cv::multiply(color, weight3, weighted);
-  cv::boxFilter(weighted, local, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  cv::Mat3f out(color.size(), cv::Vec3f(0, 0, 0));
+/// Four numbers at every point of a grid, with a border of zeros.
+class Quads {
+ public:
+  explicit Quads(const cv::Size& size)
+      : pitch_(size.width + 2 * kBorder), numbers_(4, pitch_ * (size.height + 2 * kBorder)) {
+    numbers_.setZero();
+  }
+  auto operator()(int x, int y) { return numbers_.col(place(x, y)); }
+  /// Returns the sums over the windows around the points. Those of the border are not valid.
+  Quads sums() const {
+    Quads rows = *this, out = *this;
+    rows.add_neighbours(numbers_, 1);
+    out.add_neighbours(rows.numbers_, pitch_);
+    return out;
+  }
+
+ private:
+  static constexpr int kBorder = kWindow / 2;
+  using Numbers = Eigen::Array<float, 4, Eigen::Dynamic>;
+
+  Eigen::Index place(int x, int y) const { return (y + kBorder) * pitch_ + x + kBorder; }
+  /// Makes each number the sum of five, `step` apart.
+  void add_neighbours(const Numbers& from, Eigen::Index step) {
+    static_assert(kWindow == 5);
+    const Eigen::Index count = from.cols() - 4 * step;
+    const auto at = [&](int k) { return from.middleCols(k * step, count); };
+    numbers_.middleCols(2 * step, count) = at(0) + at(1) + at(2) + at(3) + at(4);
+  }
+
+  Eigen::Index pitch_;
+  Numbers numbers_;
+};
+
+/// Returns the masked colours without the means of their windows' masked ones, and the number of
+/// these.
+Quads without_local_mean(const cv::Mat3f& color, const cv::Mat1b& mask) {
+  Quads shown(color.size());  // colour, 1
   for (int y = 0; y < color.rows; ++y)
     for (int x = 0; x < color.cols; ++x)
-      if (weight(y, x) > 0) out(y, x) = color(y, x) - local(y, x) * (1 / weight_sum(y, x));
+      if (mask(y, x)) shown(x, y) << color(y, x)[0], color(y, x)[1], color(y, x)[2], 1;
+  Quads out = shown.sums();
+  for (int y = 0; y < color.rows; ++y)
+    for (int x = 0; x < color.cols; ++x) {
+      if (!mask(y, x)) continue;
+      const float count = out(x, y)[3];
+      out(x, y) = shown(x, y) - out(x, y) / count;
+      out(x, y)[3] = count;
+    }
   return out;
 }
 
@@ -122,33 +158,30 @@ struct Texture {
 };
 
 Texture texture(const Pairs& pairs) {
-  cv::Mat1f weight, weight_sum;
-  pairs.mask.convertTo(weight, CV_32F, 1 / 255.0);
-  cv::boxFilter(weight, weight_sum, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
-  const cv::Mat3f a = without_local_mean(pairs.first, weight, weight_sum);
-  const cv::Mat3f b = without_local_mean(pairs.other, weight, weight_sum);
-  cv::Mat3f products(a.size(), cv::Vec3f(0, 0, 0));  // a b, a a, b b at every point
+  Quads a = without_local_mean(pairs.first, pairs.mask);
+  Quads b = without_local_mean(pairs.other, pairs.mask);
+  Quads products(pairs.mask.size());  // a b, a a, b b at every point
   Products sums;
-  for (int y = 0; y < a.rows; ++y)
-    for (int x = 0; x < a.cols; ++x) {
+  for (int y = 0; y < pairs.mask.rows; ++y)
+    for (int x = 0; x < pairs.mask.cols; ++x) {
       if (!pairs.mask(y, x)) continue;
-      const cv::Vec3f &p = a(y, x), &q = b(y, x);
-      const cv::Vec3f product(p.dot(q), p.dot(p), q.dot(q));
-      products(y, x) = product;
+      const Eigen::Array3f p = a(x, y).head<3>(), q = b(x, y).head<3>();
+      const float both = (p * q).sum(), first = p.square().sum(), other = q.square().sum();
+      products(x, y) << both, first, other, 0;
       ++sums.count;
-      sums.both += double{product[0]};
-      sums.first += double{product[1]};
-      sums.other += double{product[2]};
+      sums.both += double{both};
+      sums.first += double{first};
+      sums.other += double{other};
     }
   if (sums.count < kLeastPoints) return {};
-  cv::boxFilter(products, products, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  Quads local = products.sums();
   int agree = 0;
-  Pieces pieces(a.rows);
-  for (int y = 0; y < a.rows; ++y)
-    for (int x = 0; x < a.cols; ++x) {
+  Pieces pieces(pairs.mask.rows);
+  for (int y = 0; y < pairs.mask.rows; ++y)
+    for (int x = 0; x < pairs.mask.cols; ++x) {
       if (!pairs.mask(y, x)) continue;
-      const cv::Vec3f& p = products(y, x);
-      const float noise = kFaintContrast * kFaintContrast * weight_sum(y, x);
+      const auto p = local(x, y);
+      const float noise = kFaintContrast * kFaintContrast * a(x, y)[3];
       const bool agrees = p[0] > 0.5f * std::sqrt((p[1] + noise) * (p[2] + noise));
       agree += agrees;
       pieces.add(x, y, agrees);
