@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
+#include <span>
 #include <utility>
 
 #include "hypotrack/api/stop.hpp"
@@ -38,6 +41,38 @@ constexpr std::size_t kMostSorted = 2000;
 constexpr double kLeast = 0.2;        // share of the model's colours worth a comparison
 constexpr double kUnexplained = 0.4;  // least share of a place's foreground that other places leave
                                       // unexplained
+
+/// Adds bytes to sums.
+void add(const std::uint8_t* bytes, std::span<std::uint16_t> sums) {
+  const auto size = static_cast<int>(sums.size());
+  int i = 0;
+  for (; i + 8 <= size; i += 8)
+    cv::v_store(sums.data() + i, cv::v_load(sums.data() + i) + cv::v_load_expand(bytes + i));
+  for (; i < size; ++i) sums[static_cast<std::size_t>(i)] += bytes[i];
+}
+
+/// Returns the means of squares of `side` pixels. cv::resize() takes many times as long, for only
+/// halving is fast there.
+cv::Mat3b means_of_squares(const cv::Mat3b& picture, int side) {
+  cv::Mat3b out(picture.rows / side, picture.cols / side);
+  const cv::v_float32x4 share = cv::v_setall_f32(1 / static_cast<float>(side * side));
+  std::vector<std::uint16_t> sums(3 * static_cast<std::size_t>(out.cols * side) + 1);
+  for (int y = 0; y < out.rows; ++y) {
+    std::ranges::fill(sums, std::uint16_t{0});
+    for (int row = y * side; row < (y + 1) * side; ++row)
+      add(picture.ptr<std::uint8_t>(row), {sums.data(), sums.size() - 1});
+    const std::uint16_t* next = sums.data();
+    for (int x = 0; x < out.cols; ++x) {
+      cv::v_uint16x8 sum = cv::v_setzero_u16();  // B, G, R and what is beside
+      for (int i = 0; i < side; ++i, next += 3) sum += cv::v_load_low(next);
+      const auto of_square = cv::v_cvt_f32(cv::v_reinterpret_as_s32(cv::v_expand_low(sum)));
+      int mean[4];
+      cv::v_store(mean, cv::v_round(share * of_square));
+      for (int i = 0; i < 3; ++i) out(y, x)[i] = static_cast<std::uint8_t>(mean[i]);
+    }
+  }
+  return out;
+}
 
 ReducedView reduce(cv::Mat3b picture, const ForegroundColors& colors, const ColorMap& map,
                    const cv::Mat1f& weights) {
@@ -177,7 +212,9 @@ PlaceFinder::PlaceFinder(const std::vector<Camera>& cameras, double radius, doub
 }
 
 cv::Mat3b PlaceFinder::reduced(const cv::Mat& picture, std::size_t view) const {
+  constexpr int kMost = 16;  // pixels along a square: sums of 16 bits hold them
   const int by = reductions_[view];
+  if (by <= std::min({picture.cols, picture.rows, kMost})) return means_of_squares(picture, by);
   cv::Mat3b out;
   cv::resize(picture, out, {std::max(1, picture.cols / by), std::max(1, picture.rows / by)}, 0, 0,
              cv::INTER_AREA);
