@@ -54,7 +54,7 @@ TEST_F(RigWatchTest, SoundPicturesAreSilent) {
   EXPECT_FALSE(watch_.is_doubtful());
   EXPECT_LT(watch_.estimate().row_error, 0.3);
   const Frame last = frame(0);
-  EXPECT_EQ(watch_.applied_to(last).views[1].color.data, last.views[1].color.data);
+  EXPECT_EQ(corrected(last, watch_.correction()).views[1].color.data, last.views[1].color.data);
 }
 
 TEST_F(RigWatchTest, RowsRollAndScaleAreMeasuredFromTheFirstFrameAndUndone) {
@@ -75,7 +75,7 @@ TEST_F(RigWatchTest, RowsRollAndScaleAreMeasuredFromTheFirstFrameAndUndone) {
     return cv::norm(picture(inside), right(inside), cv::NORM_L1) / (3.0 * inside.area());
   };
   EXPECT_GT(difference(now.views[1].color), 8);
-  EXPECT_LT(difference(watch_.applied_to(now).views[1].color), 4);
+  EXPECT_LT(difference(corrected(now, watch_.correction()).views[1].color), 4);
 }
 
 TEST_F(RigWatchTest, CamerasAboveEachOtherAreWatchedToo) {
@@ -94,7 +94,8 @@ TEST_F(RigWatchTest, CamerasAboveEachOtherAreWatchedToo) {
   watch.look(now);
   EXPECT_NEAR(std::abs(watch.estimate().rows), 5, 0.3);
   const cv::Rect inside(40, 40, TexturedPair::kHeight - 80, TexturedPair::kWidth - 80);
-  EXPECT_LT(cv::norm(watch.applied_to(now).views[1].color(inside), below(inside), cv::NORM_L1),
+  EXPECT_LT(cv::norm(corrected(now, watch.correction()).views[1].color(inside), below(inside),
+                     cv::NORM_L1),
             3.0 * 2 * inside.area());
 }
 

@@ -16,10 +16,10 @@ ViewFault PictureWatch::check(const Frame& frame) {
   const ProfiledPart part("check pictures");
   const ViewFault found = checks_ ? checks_->check(frame) : ViewFault{};
   if (rig_ && !spoils_pictures(found.fault)) {
-    if (rig_->measures_rows())
-      rig_->look(frame);
-    else
-      beside_.run([this, frame] { rig_->look(frame); });
+    const bool waits = rig_->is_new();
+    if (waits) rig_->look(frame);
+    correction_ = rig_->correction();
+    if (!waits) beside_.run([this, frame] { rig_->look(frame); });
   }
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
 }
@@ -36,8 +36,7 @@ void PictureWatch::keep_brightness() {
 }
 
 Frame PictureWatch::steadied(const Frame& frame) const {
-  const Frame steady = brightness_.applied_to(frame);
-  return rig_ ? rig_->applied_to(steady) : steady;
+  return corrected(brightness_.applied_to(frame), correction_);
 }
 
 void PictureWatch::tell_drifts(FrameSearch& search) const {

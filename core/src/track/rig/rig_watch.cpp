@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kSure = 4;        // standard deviations
 constexpr int kFewest = 12;        // matches: three for each number that is fitted
-constexpr int kInterval = 30;      // frames from one measurement to the next
 constexpr double kNearest = 0.25;  // metres
 
 bool is_pair(const Frame& frame) {
@@ -65,7 +64,8 @@ void RigWatch::look(const Frame& frame) {
     look_at_rows(pictures, frame.index);
   }
   if (looks)
-    look_at_time(misaligned_ > 0 ? pair_.resample(applied_to(frame)) : pictures, frame.index);
+    look_at_time(misaligned_ > 0 ? pair_.resample(corrected(frame, correction())) : pictures,
+                 frame.index);
 }
 
 void RigWatch::look_at_rows(const GreyPair& pictures, int frame) {
@@ -138,16 +138,20 @@ void RigWatch::look_at_colors(int frame, const ColorMap& colors) {
       frame, 1 / times));
 }
 
-Frame RigWatch::applied_to(const Frame& frame) const {
-  if (misaligned_ == 0 || !is_pair(frame)) return frame;
-  const cv::Matx23d back = pair_.displacement(estimate_.roll, estimate_.scale, {0, estimate_.rows});
+std::optional<cv::Matx23d> RigWatch::correction() const {
+  if (misaligned_ == 0) return std::nullopt;
+  return pair_.displacement(estimate_.roll, estimate_.scale, {0, estimate_.rows});
+}
+
+Frame corrected(const Frame& frame, const std::optional<cv::Matx23d>& correction) {
+  if (!correction || !is_pair(frame)) return frame;
   Frame out = frame;
   View& view = out.views[1];
   for (cv::Mat* image : {&view.color, &view.mask}) {
     if (image->empty()) continue;
     const int lookup = image == &view.color ? cv::INTER_LINEAR : cv::INTER_NEAREST;
     cv::Mat moved;  // the source keeps its picture
-    cv::warpAffine(*image, moved, back, image->size(), lookup | cv::WARP_INVERSE_MAP,
+    cv::warpAffine(*image, moved, *correction, image->size(), lookup | cv::WARP_INVERSE_MAP,
                    cv::BORDER_REPLICATE);
     *image = moved;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <opencv2/core/matx.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,14 +29,15 @@ class RigWatch {
 
   /// Takes the next frame as it came. Frames without two views of colour teach nothing.
   void look(const Frame& frame);
-  /// Returns whether look() may change now what applied_to() makes of frames. Otherwise both may
-  /// run at the same time.
-  bool measures_rows() const { return frames_ >= next_; }
+  /// Returns whether the rows are still measured often, so that look() had better be done before
+  /// the frame is searched.
+  bool is_new() const { return frames_ < kInterval; }
   /// Takes the map from the second view's colours to the first's in a frame that was tracked.
   void look_at_colors(int frame, const ColorMap& colors);
 
-  /// Returns a frame with the second view's pictures moved to where the calibration has them.
-  Frame applied_to(const Frame& frame) const;
+  /// Returns the inverse of the map that moves the second view's pictures to where the calibration
+  /// has them; nothing if they are there.
+  std::optional<cv::Matx23d> correction() const;
   /// Returns whether depth may be wrong in spite of that.
   bool is_doubtful() const { return is_late_ || misaligned_ > kMostRows; }
 
@@ -48,6 +50,7 @@ class RigWatch {
   void look_at_rows(const GreyPair& pictures, int frame);
   void look_at_time(const GreyPair& pictures, int frame);
 
+  static constexpr int kInterval = 30;    ///< frames from one measurement of rows to the next
   static constexpr double kMostRows = 8;  ///< pixels that moving a picture makes up for
 
   RectifiedPair pair_;
@@ -67,6 +70,9 @@ class RigWatch {
   bool brightness_said_ = false;
   std::vector<std::string> notes_;
 };
+
+/// Returns a frame with the pictures of the second of two views moved by RigWatch::correction().
+Frame corrected(const Frame& frame, const std::optional<cv::Matx23d>& correction);
 
 }  // namespace internal
 }  // namespace hypotrack
