@@ -60,7 +60,7 @@ SmallPicture shrink(const cv::Mat& color) {
 }
 
 float gain_between(const SmallPicture& before, const SmallPicture& now) {
-  constexpr std::size_t kStep = 7, kLeast = 4;  // a quarter of the cells
+  constexpr std::size_t kStep = 29, kLeast = 4;  // a quarter of the cells that are looked at
   constexpr int kDarkest = 16 * SmallPicture::kLevel;
   std::vector<float> clear, all;
   for (std::size_t i = 0; i < now.cells.size(); i += kStep) {
