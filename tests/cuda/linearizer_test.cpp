@@ -1,6 +1,9 @@
 // Analytic Jacobians on the GPU: normal equations of several terms at once.
 #include <gtest/gtest.h>
 
+#include <thread>
+#include <vector>
+
 #include "device.hpp"
 #include "device_scores.hpp"
 #include "linearized_terms.hpp"
@@ -180,6 +183,23 @@ TEST_F(DeviceLinearizer, LinearizesManyPointsAsIfEachWereAlone) {
     const NormalEquations alone = gpu->least_squares()->linearize_each({&points[i], 1}).front();
     expect_near(all[i], alone, 1e-4);
   }
+}
+
+/// The shared memory that a kernel may use is the same for all trackers of the process.
+TEST_F(DeviceLinearizer, LinearizesScenesOfAllSizesAtTheSameTime) {
+  constexpr int kRounds = 300;
+  const Scene small = test::hand_scene(), large = test::hand_and_box_scene();
+  std::vector<std::jthread> threads;
+  for (const Scene* scene : {&small, &large, &small, &large})
+    threads.emplace_back([scene] {
+      const auto gpu = make_cost(*scene, terms_with_slopes(*scene), {.backend = Backend::cuda},
+                                 {.least_squares = true});
+      Observation frame = test::colored(test::rectified_pair(*scene, 96));
+      frame.start = test::scored_states(*scene).col(0);
+      gpu->prepare(frame);
+      for (int i = 0; i < kRounds && !HasFailure(); ++i)
+        EXPECT_NO_THROW(linearize(*gpu, *scene, frame.start, steps_of(*scene)));
+    });
 }
 
 TEST_F(DeviceLinearizer, SeesNothingOfAHandBesideThePictures) {

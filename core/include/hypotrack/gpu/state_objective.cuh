@@ -7,6 +7,7 @@
 
 #include "hypotrack/gpu/pose.cuh"
 #include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/gpu/shared_memory.cuh"
 
 namespace hypotrack::cuda {
 
@@ -167,12 +168,12 @@ class StateObjective : public DeviceObjective {
   }
   void reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t) final {
     limits_ = limits;
-    if (shared_bytes(scene) > static_cast<std::size_t>(limits.shared_bytes_per_block)) {
+    if (shared_bytes(scene) > most_shared_bytes(limits)) {
       throw DeviceError(
           "CUDA: a term of the state needs more shared memory than the device has; use fewer or "
           "simpler models, or backend: cpu");
     }
-    allow_shared(&score_states<Term>, scene);
+    allow_shared_memory(&score_states<Term>, limits);
   }
   void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
     launch(&score_states<Term>, dim3(static_cast<unsigned>(batch.count)), dim3(kWarp),
@@ -201,7 +202,7 @@ class StateObjective : public DeviceObjective {
       to.residuals += drawn.first * residuals.stride;
       const WithStateResiduals<Term> term{term_, to};
       const auto kernel = &score_states<WithStateResiduals<Term>>;
-      allow_shared(kernel, scene);
+      allow_shared_memory(kernel, limits_);
       launch(kernel, dim3(static_cast<unsigned>(part.count)), dim3(kWarp), shared_bytes(scene),
              stream, overlaps_launches(limits_), scene, part, term);
     } else {
@@ -227,12 +228,6 @@ class StateObjective : public DeviceObjective {
     return part;
   }
 
-  template <class AnyTerm>
-  void allow_shared(void (*kernel)(SceneLayout, BatchLayout, AnyTerm), const SceneLayout& scene) {
-    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                               static_cast<int>(shared_bytes(scene))),
-          "reserving shared memory");
-  }
   std::size_t shared_bytes(const SceneLayout& scene) const {
     return sizeof(double) * static_cast<std::size_t>(scene.dimension) +
            sizeof(float) * static_cast<std::size_t>(scratch_floats(term_));

@@ -6,6 +6,7 @@
 #include "hypotrack/gpu/drawn.cuh"
 #include "hypotrack/gpu/pose.cuh"
 #include "hypotrack/gpu/runtime.cuh"
+#include "hypotrack/gpu/shared_memory.cuh"
 #include "hypotrack/gpu/vertices.cuh"
 
 namespace hypotrack::cuda::internal {
@@ -407,9 +408,7 @@ void enqueue_posing(const SceneLayout& scene, const DeviceLimits& limits, const 
   int end = 0;
   const PoseMemory at = detail::lay_out_pose(scene, end);
   const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(end);
-  check(cudaFuncSetAttribute(&place_states, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                             static_cast<int>(bytes)),
-        "reserving shared memory");
+  allow_shared_memory(&place_states, limits);
   const auto points = static_cast<unsigned>(job.points);
   launch(&place_states, dim3(static_cast<unsigned>(job.columns + 1), points), dim3(kPoseThreads),
          bytes, stream, overlaps_launches(limits), scene, job, at);

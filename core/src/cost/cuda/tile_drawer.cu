@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "hypotrack/gpu/evaluate.cuh"
+#include "hypotrack/gpu/shared_memory.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {
@@ -48,13 +49,6 @@ auto kernel_for(const BlockPlan& plan) {
                                  : &evaluate_hypotheses<DepthTerm<kPair>, kWalk, false>;
 }
 
-template <bool kPair>
-void allow_shared(const BlockPlan& plan, const DeviceLimits& limits) {
-  check(cudaFuncSetAttribute(kernel_for<kPair>(plan), cudaFuncAttributeMaxDynamicSharedMemorySize,
-                             limits.shared_bytes_per_block - detail::kReservedBytes),
-        "reserving shared memory");
-}
-
 }  // namespace
 
 void TileDrawer::prepare(const DeviceObservation& observation) {
@@ -98,9 +92,9 @@ void TileDrawer::reserve(const SceneLayout& scene, const DeviceLimits& limits, s
                        .sums = 1});
   memory_.reserve(plan_, at_once_, 1, 1);
   if (pair_) {
-    allow_shared<true>(plan_, limits);
+    allow_shared_memory(kernel_for<true>(plan_), limits);
   } else {
-    allow_shared<false>(plan_, limits);
+    allow_shared_memory(kernel_for<false>(plan_), limits);
   }
   reserved_ = count;
   ++revision_;
