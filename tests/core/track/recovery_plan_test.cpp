@@ -106,11 +106,31 @@ TEST_F(RecoveryPlanTest, LooksEverMoreSeldomElsewhereForAModelInADoubtfulFirstPo
 TEST_F(RecoveryPlanTest, SeeksALostModelInEveryFrame) {
   LoopState& loop = make_known();
   for (int i = 0; i < 5; ++i) {
-    const RecoveryRequest request = plan_.next(loop, frame_, candidate(0.99, 0.3));
+    const RecoveryRequest request = plan_.next(loop, frame_, candidate(0.99, 0.1));
     EXPECT_EQ(request.sought, (Flags{false, true}));
     EXPECT_TRUE(request.lost);
     EXPECT_FALSE(request.near_only);
   }
+}
+
+TEST_F(RecoveryPlanTest, SeeksAModelWithAPoorPoseAtFirstThenEveryFourthFrame) {
+  LoopState& loop = make_known();
+  std::vector<int> times;
+  for (int i = 1; i <= 13; ++i) {
+    const RecoveryRequest request = plan_.next(loop, frame_, candidate(0.99, 0.3));
+    if (!any(request.sought)) continue;
+    EXPECT_EQ(request.sought, (Flags{false, true}));
+    EXPECT_TRUE(request.lost);
+    times.push_back(i);
+  }
+  EXPECT_EQ(times, (std::vector<int>{1, 2, 3, 4, 8, 12}));
+}
+
+TEST_F(RecoveryPlanTest, SeeksAModelAnewWhosePoseWasGoodForAMoment) {
+  LoopState& loop = make_known();
+  for (int i = 0; i < 9; ++i) plan_.next(loop, frame_, candidate(0.99, 0.3));
+  for (int i = 0; i < 4; ++i) plan_.next(loop, frame_, candidate(0.99, 0.99));
+  EXPECT_TRUE(any(plan_.next(loop, frame_, candidate(0.99, 0.3)).sought));
 }
 
 TEST_F(RecoveryPlanTest, ComparesADoubtfulPoseWithOthersEverMoreSeldom) {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRecently = 0.3;  // seconds for which a detector's sight confirms what is followed
 
 /// Returns the status of a frame from those of its models.
 Status worst(const std::vector<Status>& models) {
@@ -88,7 +89,8 @@ StatusMeasures FrameJudge::measures_of(std::size_t model, const Frame& frame, co
   own.probability = best.probabilities[model];
   own.sigma = loop_.tracks[model].mean_sigma(solution.sigma);
   own.detected = best.is_detected(model);
-  own.confirmed = best.confirmed[model] || best.unseen[model] <= 0;
+  const double unseen = loop_.tracks[model].seconds_unseen(frame.time);
+  own.confirmed = best.confirmed[model] || unseen <= kRecently;
   // What has left the pictures takes higher measures to be back.
   const bool is_back = own.probability >= loop_.settings.thresholds.confirmed_above || own.detected;
   const bool is_found = best.answers() && best.shown[model] && is_back;

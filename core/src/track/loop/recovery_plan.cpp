@@ -43,8 +43,21 @@ bool RecoveryPlan::is_for_background(const LoopState& loop, const RecoveryReques
   return true;
 }
 
+bool RecoveryPlan::rests(std::size_t model, bool is_poor) {
+  constexpr unsigned kPatience = 4;  // frames
+  unsigned& count = poor_[model];
+  if (!is_poor) {
+    count = std::min(count, kPatience);
+    count -= count > 0;
+    return false;
+  }
+  return ++count > kPatience && count % kPatience != 0;
+}
+
 void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidate& best,
                              RecoveryRequest& request) {
+  poor_.resize(loop.tracks.size());
+  rests_.assign(loop.tracks.size(), false);
   for (std::size_t m = 0; m < loop.tracks.size(); ++m) {
     ModelTrack& track = loop.tracks[m];
     const double p = best.probabilities[m];
@@ -57,7 +70,10 @@ void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidat
     // A doubtful first pose may prove right.
     if (is_unknown(track.phase()) && is_sought && p >= loop.settings.thresholds.uncertain_above)
       is_sought = doubtful_finds_.next();
-    if (!is_sought) continue;
+    const bool is_poor = is_sought && best.answers() && best.shown[m] && has_pose(track.phase()) &&
+                         p >= loop.settings.thresholds.uncertain_above;
+    rests_[m] = rests(m, is_poor);
+    if (!is_sought || rests_[m]) continue;
     request.sought[m] = request.lost = true;
     request.thorough[m] = track.is_time_to_search_all();
   }
@@ -80,7 +96,7 @@ void RecoveryPlan::seek_nearby(const LoopState& loop, const Candidate& best,
   ModelFlags unconfirmed = request.sought, doubtful = request.sought;
   for (std::size_t m = 0; m < loop.tracks.size(); ++m) {
     const ModelTrack& track = loop.tracks[m];
-    if (is_at_start(track.phase())) continue;
+    if (is_at_start(track.phase()) || rests_[m]) continue;
     unconfirmed[m] = track.needs_confirmation();
     doubtful[m] = best.probabilities[m] < kDoubt;
   }
@@ -91,6 +107,7 @@ void RecoveryPlan::seek_nearby(const LoopState& loop, const Candidate& best,
 void RecoveryPlan::restart() {
   doubtful_finds_.restart();
   doubts_.restart();
+  poor_.clear();
 }
 
 }  // namespace hypotrack::internal

@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstddef>
+#include <vector>
 
 #include "base/exported.hpp"
 #include "hypotrack/api/frame.hpp"
@@ -28,7 +29,7 @@ class RareTurns {
 class RecoveryPlan {
  public:
   /// Plans the recovery of a frame whose search ended in `best`. The request seeks
-  ///  - models without a pose that is right; or else
+  ///  - models without a pose that is right, those with a poor one not in every frame; or else
   ///  - from time to time, one model where detectors may see it elsewhere; or else
   ///  - other poses near doubtful ones, and near all just after a loss.
   /// It seeks no models that are expected at the start, and perhaps none at all. A tracker that
@@ -43,6 +44,8 @@ class RecoveryPlan {
   void restart();
 
  private:
+  /// Counts a frame in which a pose is poor, or not. Returns whether it is followed as it is.
+  bool rests(std::size_t model, bool is_poor);
   /// Writes into `request` the models that are lost, and all that is known of every model.
   void seek_lost(LoopState& loop, const Frame& frame, const Candidate& best,
                  RecoveryRequest& request);
@@ -53,6 +56,8 @@ class RecoveryPlan {
 
   RareTurns doubtful_finds_;  ///< of models in doubtful first poses, to be looked for elsewhere
   RareTurns doubts_;          ///< of doubtful poses, to be compared with others nearby
+  std::vector<unsigned> poor_;  ///< by model: recent frames whose pose was poor
+  ModelFlags rests_;            ///< models with poor poses that are followed as they are
   double checked_ = 0;        ///< time at which detectors last looked for a model elsewhere
   std::size_t checks_ = 0;    ///< number of these checks, which take turns among the models
 };
