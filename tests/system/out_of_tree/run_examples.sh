@@ -7,6 +7,7 @@ source_dir=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
+export CXXFLAGS="-Wall -Wextra -Werror"  # as authors may compile
 
 fail() { echo "$1"; exit 1; }
 

@@ -34,13 +34,13 @@ HYPOTRACK_API std::span<const std::string_view> enum_names(DistortionModel);
 /// - TOML of caliscope or anipose.
 struct CalibrationSettings {
   std::filesystem::path file;
-  std::filesystem::path second;
-  std::filesystem::path extrinsics;
-  std::vector<std::string> cameras;
-  std::optional<LengthUnit> units;
+  std::filesystem::path second = {};
+  std::filesystem::path extrinsics = {};
+  std::vector<std::string> cameras = {};
+  std::optional<LengthUnit> units = {};
   double scale = 1;
-  std::vector<double> image_size;
-  std::optional<DistortionModel> model;
+  std::vector<double> image_size = {};
+  std::optional<DistortionModel> model = {};
   bool any_baseline = false;
 
   void visit(ParamVisitor& v) {

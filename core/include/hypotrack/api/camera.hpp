@@ -27,7 +27,7 @@ struct Camera {
   double cx = 0;
   double cy = 0;
   DistortionModel distortion_model = DistortionModel::none;
-  std::vector<double> distortion;
+  std::vector<double> distortion = {};
   Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
 };
 

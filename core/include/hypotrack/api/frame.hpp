@@ -39,9 +39,9 @@ struct View {
 
 /// The true state or landmarks of a frame; either may be missing.
 struct GroundTruth {
-  Eigen::VectorXd state;       ///< state of the scene; size 0 = unknown
-  Eigen::Matrix3Xd landmarks;  ///< 3xL in the order of Scene::landmark_names(), world, metres; NaN
-                               ///< columns are unknown; size 0 = use `state`
+  Eigen::VectorXd state{};       ///< state of the scene; size 0 = unknown
+  Eigen::Matrix3Xd landmarks{};  ///< 3xL in the order of Scene::landmark_names(), world, metres;
+                                 ///< NaN columns are unknown; size 0 = use `state`
   /// For each model, true if it is known to be out of view; its landmarks are then NaN. Empty:
   /// every model is in view.
   std::vector<bool> absent{};
@@ -49,11 +49,11 @@ struct GroundTruth {
 
 /// All views of one instant of a recording.
 struct Frame {
-  int index = 0;            ///< number within the source; missing frames count
-  double time = 0;          ///< seconds since the first frame
-  std::vector<View> views;  ///< one per camera of the source; empty if the frame is unusable
-  std::optional<GroundTruth> truth;
-  std::string problem;  ///< why `views` is empty (missing file, damaged image), else empty
+  int index = 0;              ///< number within the source; missing frames count
+  double time = 0;            ///< seconds since the first frame
+  std::vector<View> views{};  ///< one per camera of the source; empty if the frame is unusable
+  std::optional<GroundTruth> truth{};
+  std::string problem{};  ///< why `views` is empty (missing file, damaged image), else empty
   /// When a live source took the pictures, on the clock of this machine; empty for recordings.
   std::optional<std::chrono::steady_clock::time_point> taken{};
   /// What was wrong with the time, which is corrected. A run sets it; sources leave it as it is.

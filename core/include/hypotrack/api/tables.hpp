@@ -52,7 +52,7 @@ struct LandmarkTableOptions {
   double metres_per_unit = 1;  ///< 1e-3 for a table in millimetres
   /// `name=landmark` assigns a column triple of the file to a landmark of the scene; `name=` drops
   /// it.
-  std::vector<std::string> rename;
+  std::vector<std::string> rename = {};
   /// The owner of `landmark_names` in messages.
   std::string owner = "the scene";
 };

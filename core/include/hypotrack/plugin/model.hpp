@@ -15,13 +15,13 @@ namespace hypotrack {
 /// A triangle mesh with up to four bone influences per vertex. Vertices are welded by position.
 /// Texture coordinates have their own indices, so that texture seams do not split the surface.
 struct Mesh {
-  Eigen::Matrix3Xf vertices;      ///< 3xV, model frame at the bind pose, metres
-  Eigen::Matrix3Xi triangles;     ///< 3xT vertex indices, counter-clockwise from outside
-  Eigen::Matrix4Xi bone_indices;  ///< 4xV; unused influences have weight 0 and index 0
-  Eigen::Matrix4Xf bone_weights;  ///< 4xV, non-negative, each column sums to 1
-  Eigen::Matrix2Xf uv;            ///< 2xU in [0, 1], v upwards (OpenGL); 2x0 without texture
-  Eigen::Matrix3Xi uv_triangles;  ///< 3xT indices into uv; 3x0 without texture
-  cv::Mat texture;                ///< 8-bit BGR, top row at v = 1; empty = `color` everywhere
+  Eigen::Matrix3Xf vertices;        ///< 3xV, model frame at the bind pose, metres
+  Eigen::Matrix3Xi triangles;       ///< 3xT vertex indices, counter-clockwise from outside
+  Eigen::Matrix4Xi bone_indices{};  ///< 4xV; unused influences have weight 0 and index 0
+  Eigen::Matrix4Xf bone_weights{};  ///< 4xV, non-negative, each column sums to 1
+  Eigen::Matrix2Xf uv{};            ///< 2xU in [0, 1], v upwards (OpenGL); 2x0 without texture
+  Eigen::Matrix3Xi uv_triangles{};  ///< 3xT indices into uv; 3x0 without texture
+  cv::Mat texture{};                ///< 8-bit BGR, top row at v = 1; empty = `color` everywhere
   Eigen::Vector3f color{0.70f, 0.55f, 0.47f};  ///< RGB in [0, 1] where there is no texture
 };
 

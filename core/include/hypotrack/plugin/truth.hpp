@@ -17,10 +17,10 @@ namespace hypotrack {
 /// The parameters by which a source names its ground-truth tables (tables.hpp). A source visits
 /// them in its own `visit` (`truth.visit(v)`), so that their keys appear among its own.
 struct TruthSettings {
-  std::filesystem::path states;
-  std::filesystem::path landmarks;
+  std::filesystem::path states = {};
+  std::filesystem::path landmarks = {};
   LengthUnit units = LengthUnit::m;
-  std::vector<std::string> rename;
+  std::vector<std::string> rename = {};
   int offset = 0;
 
   void visit(ParamVisitor& v) {
