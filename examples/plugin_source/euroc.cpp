@@ -18,7 +18,7 @@ using Pictures = std::map<std::int64_t, std::filesystem::path>;  // by time in n
 std::vector<double> numbers(const hypotrack::ConfigNode& list, std::size_t expected) {
   std::vector<double> out;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string& text = list.at(i).scalar();
+    const std::string text = list.at(i).scalar();
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())

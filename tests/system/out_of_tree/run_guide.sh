@@ -9,6 +9,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 export PREFIX=$scratch/prefix
 unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
+export CXXFLAGS="-Wall -Wextra -Werror"  # as authors may compile
 
 fail() { echo "$1"; exit 1; }
 

@@ -6,6 +6,7 @@ build_dir=$1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
+export CXXFLAGS="-Wall -Wextra -Werror"  # as authors may compile
 
 fail() { echo "$1"; exit 1; }
 
