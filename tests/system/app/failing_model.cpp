@@ -35,7 +35,8 @@ hypotrack::ModelData data_of(How how) {
   hypotrack::Mesh mesh;
   mesh.vertices = Eigen::Matrix3Xf::Identity(3, 3) * 0.1F;
   if (how == How::kNanMesh) mesh.vertices(0, 0) = std::numeric_limits<float>::quiet_NaN();
-  mesh.triangles = Eigen::Vector3i(0, 1, 2);
+  mesh.triangles.resize(3, 1);  // GCC 14 warns of an assignment from Vector3i
+  mesh.triangles << 0, 1, 2;
   hypotrack::ModelData data = hypotrack::rigid_model(mesh);
   if (how == How::kNoLandmarks) data.landmarks.clear();
   return data;
