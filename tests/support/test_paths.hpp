@@ -11,6 +11,8 @@ namespace hypotrack::test {
 
 inline std::filesystem::path source_dir() { return HYPOTRACK_SOURCE_DIR; }
 inline std::filesystem::path build_dir() { return HYPOTRACK_BUILD_DIR; }
+/// The build's plugins; "lib" is another folder in builds for packages.
+inline std::filesystem::path plugin_dir() { return build_dir() / HYPOTRACK_PLUGIN_DIR; }
 
 /// Returns the folder of real recordings and meshes that some tests use. It lies beside a checkout
 /// and is not part of the project.

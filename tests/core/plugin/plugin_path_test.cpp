@@ -10,9 +10,7 @@ using ::testing::StartsWith;
 
 constexpr const char* kVariable = "HYPOTRACK_PLUGIN_PATH";
 
-std::filesystem::path own_folder() {
-  return std::filesystem::canonical(build_dir()) / "lib" / "hypotrack" / "plugins";
-}
+std::filesystem::path own_folder() { return std::filesystem::canonical(plugin_dir()); }
 
 TEST(PluginPath, IsTheArgumentThenTheVariableThenTheBuild) {
   const ScopedVariable variable(kVariable, "/b:/c/");

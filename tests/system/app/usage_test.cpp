@@ -199,7 +199,7 @@ TEST_F(UsageTest, ModelsAreDescribedWithTheirParameters) {
 
 TEST_F(UsageTest, EveryCapabilityOfOursIsExplained) {
   int explained = 0;
-  for (const PluginRow& row : list_plugins(std::vector{build_dir() / "lib/hypotrack/plugins"})) {
+  for (const PluginRow& row : list_plugins(std::vector{plugin_dir()})) {
     std::istringstream words(row.capabilities);
     for (std::string word; words >> word; ++explained)
       EXPECT_NE(find_capability(row.kind, word), nullptr)
