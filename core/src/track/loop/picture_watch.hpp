@@ -57,9 +57,9 @@ class PictureWatch {
  private:
   std::optional<PictureChecks> checks_;
   SteadyBrightness brightness_;
-  std::optional<RigWatch> rig_;  ///< of a pair of views that are compared
+  std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
   std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() of frames before
-  tbb::task_group beside_;       ///< what of it runs beside the search
+  tbb::task_group beside_;                 ///< what of it runs beside the search
 };
 
 }  // namespace internal

@@ -54,12 +54,12 @@ class RecoveryPlan {
   /// Seeks other poses of doubtful models, ever more seldom while there are none.
   void seek_nearby(const LoopState& loop, const Candidate& best, RecoveryRequest& request);
 
-  RareTurns doubtful_finds_;  ///< of models in doubtful first poses, to be looked for elsewhere
-  RareTurns doubts_;          ///< of doubtful poses, to be compared with others nearby
+  RareTurns doubtful_finds_;    ///< of models in doubtful first poses, to be looked for elsewhere
+  RareTurns doubts_;            ///< of doubtful poses, to be compared with others nearby
   std::vector<unsigned> poor_;  ///< by model: recent frames whose pose was poor
   ModelFlags rests_;            ///< models with poor poses that are followed as they are
-  double checked_ = 0;        ///< time at which detectors last looked for a model elsewhere
-  std::size_t checks_ = 0;    ///< number of these checks, which take turns among the models
+  double checked_ = 0;          ///< time at which detectors last looked for a model elsewhere
+  std::size_t checks_ = 0;      ///< number of these checks, which take turns among the models
 };
 
 }  // namespace internal
