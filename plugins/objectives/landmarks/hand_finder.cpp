@@ -1,5 +1,7 @@
 #include "hand_finder.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,10 +31,12 @@ std::vector<std::optional<SeenHand>> HandFinder::find(const Observation& observa
   if (all_found(found) || searched(seen, part)) return found;
   seen.searched.push_back(part);
   const std::vector<std::optional<SeenHand>> before = last(observation, view, models);
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    if (found[i]) continue;
-    if (const auto hand = look(tile, models[i], before[i])) add(seen, *hand, tile.camera);
-  }
+  std::vector<std::optional<HandDetection>> looked(models.size());
+  tbb::parallel_for(std::size_t{0}, models.size(), [&](std::size_t i) {
+    if (!found[i]) looked[i] = look(tile, models[i], before[i]);
+  });
+  for (const auto& hand : looked)
+    if (hand) add(seen, *hand, tile.camera);
   found = match(wanted, seen.hands);
   if (all_found(found)) return found;
   for (const HandDetection& hand : detector_.detect(tile.color)) add(seen, hand, tile.camera);
