@@ -44,6 +44,20 @@ class ModelTrackTest : public testing::Test {
   Eigen::Index landmarks_ = std::ssize(box_->data().landmarks);
 };
 
+TEST_F(ModelTrackTest, KeepsWhatConfirmedItsPoseWhileItRests) {
+  ModelTrack one = track();
+  StatusMeasures seen = likely(0.5);
+  seen.confirmed = seen.detected = true;
+  one.judge(seen);
+  EXPECT_FALSE(one.keeps_confirmed() || one.keeps_detected());
+  one.rest(true);
+  EXPECT_TRUE(one.keeps_confirmed() && one.keeps_detected());
+  one.judge(likely(0.5));
+  EXPECT_FALSE(one.keeps_confirmed() || one.keeps_detected());
+  one.rest(true);
+  EXPECT_FALSE(one.keeps_confirmed() || one.keeps_detected()) << "the last search denied it";
+}
+
 TEST_F(ModelTrackTest, GoesFromTheGivenStartThroughALossAndBack) {
   ModelTrack one = track();
   EXPECT_EQ(one.phase(), Phase::awaited);

@@ -126,6 +126,15 @@ TEST_F(RecoveryPlanTest, SeeksAModelWithAPoorPoseAtFirstThenEveryFourthFrame) {
   EXPECT_EQ(times, (std::vector<int>{1, 2, 3, 4, 8, 12}));
 }
 
+TEST_F(RecoveryPlanTest, SeeksAllPoorModelsInTheBackgroundWhileOneIsLost) {
+  LoopState& loop = make_known(RecoveryRun::background);
+  for (int i = 0; i < 5; ++i) plan_.next(loop, frame_, candidate(0.99, 0.3));
+  const Candidate best = candidate(0.1, 0.3);
+  const RecoveryRequest request = plan_.next(loop, frame_, best);
+  EXPECT_EQ(request.sought, (Flags{true, true}));
+  EXPECT_TRUE(RecoveryPlan::is_for_background(loop, request, best));
+}
+
 TEST_F(RecoveryPlanTest, SeeksAModelAnewWhosePoseWasGoodForAMoment) {
   LoopState& loop = make_known();
   for (int i = 0; i < 9; ++i) plan_.next(loop, frame_, candidate(0.99, 0.3));

@@ -408,6 +408,10 @@ void enqueue_posing(const SceneLayout& scene, const DeviceLimits& limits, const 
   int end = 0;
   const PoseMemory at = detail::lay_out_pose(scene, end);
   const std::size_t bytes = sizeof(float) * static_cast<std::size_t>(end);
+  if (bytes > most_shared_bytes(limits))
+    throw DeviceError(
+        "CUDA: this scene's bones do not fit into the device's shared memory; use fewer or simpler "
+        "models, or backend: cpu");
   allow_shared_memory(&place_states, limits);
   const auto points = static_cast<unsigned>(job.points);
   launch(&place_states, dim3(static_cast<unsigned>(job.columns + 1), points), dim3(kPoseThreads),

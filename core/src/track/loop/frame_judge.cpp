@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRecently = 0.3;  // seconds for which a detector's sight confirms what is followed
 
 /// Returns the status of a frame from those of its models.
 Status worst(const std::vector<Status>& models) {
@@ -88,9 +87,9 @@ StatusMeasures FrameJudge::measures_of(std::size_t model, const Frame& frame, co
   if (!best.shown[model]) own.cost = kInfinite;
   own.probability = best.probabilities[model];
   own.sigma = loop_.tracks[model].mean_sigma(solution.sigma);
-  own.detected = best.is_detected(model);
-  const double unseen = loop_.tracks[model].seconds_unseen(frame.time);
-  own.confirmed = best.confirmed[model] || unseen <= kRecently;
+  const ModelTrack& track = loop_.tracks[model];
+  own.detected = best.is_detected(model) || track.keeps_detected();
+  own.confirmed = best.confirmed[model] || best.unseen[model] <= 0 || track.keeps_confirmed();
   // What has left the pictures takes higher measures to be back.
   const bool is_back = own.probability >= loop_.settings.thresholds.confirmed_above || own.detected;
   const bool is_found = best.answers() && best.shown[model] && is_back;

@@ -43,6 +43,9 @@ ModelTrack::ModelTrack(const Scene& scene, std::size_t model, Eigen::Index first
 
 Status ModelTrack::judge(const StatusMeasures& measures) {
   const Status status = monitor_.judge(measures);
+  confirmed_ = measures.confirmed;
+  detected_ = measures.detected;
+  rests_ = false;
   move(event_of(status));
   return status;
 }

@@ -23,6 +23,13 @@ class ModelTrack {
 
   Phase phase() const { return phase_; }
 
+  /// Follows the pose as it is until the next judge(), without a search for a better one; or not.
+  void rest(bool rests) { rests_ = rests; }
+  /// Returns whether searches or a detector confirmed the pose, in this frame or, while it rests,
+  /// in the last one that it did not.
+  bool keeps_confirmed() const { return rests_ && confirmed_; }
+  /// Returns the same of a detector that saw the model near the pose.
+  bool keeps_detected() const { return rests_ && detected_; }
   /// Judges the pose of a frame. Returns the model's status.
   Status judge(const StatusMeasures& measures);
   /// Returns the probability that a pose needs to count as right now.
@@ -87,7 +94,9 @@ class ModelTrack {
   Eigen::VectorXd velocity_;     ///< at that time, per second; empty: unknown
   Eigen::VectorXd shown_times_;  ///< at which each landmark was right and not hidden
   double seen_time_ = -std::numeric_limits<double>::infinity();  ///< of see()
-  int confirmations_ = 0;   ///< frames left in which other poses are searched
+  bool rests_ = false;                                           ///< in this frame
+  bool confirmed_ = false, detected_ = false;  ///< StatusMeasures of the last frame
+  int confirmations_ = 0;                      ///< frames left in which other poses are searched
   unsigned searches_ = 0;   ///< frames in which it was looked for since its pose was right
   int contradictions_ = 0;  ///< checks in a row that contradict the pose
 };

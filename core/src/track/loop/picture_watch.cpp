@@ -16,7 +16,7 @@ ViewFault PictureWatch::check(const Frame& frame) {
   const ProfiledPart part("check pictures");
   const ViewFault found = checks_ ? checks_->check(frame) : ViewFault{};
   if (rig_ && !spoils_pictures(found.fault)) {
-    const bool waits = rig_->is_new();
+    const bool waits = rig_->learns_rows();
     if (waits) rig_->look(frame);
     correction_ = rig_->correction();
     if (!waits) beside_.run([this, frame] { rig_->look(frame); });

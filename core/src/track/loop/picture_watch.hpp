@@ -58,7 +58,7 @@ class PictureWatch {
   std::optional<PictureChecks> checks_;
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
-  std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() of frames before
+  std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() as of the last check()
   tbb::task_group beside_;                 ///< what of it runs beside the search
 };
 

@@ -6,6 +6,8 @@
 namespace hypotrack::internal {
 namespace {
 
+constexpr unsigned kPatience = 4;  // frames in a row that seek better than a poor pose
+
 /// Returns the effort of a search for alternatives around a pose.
 GlobalSearchSettings nearby_effort(const RecoverySettings& recovery) {
   constexpr double kShare = 0.1;  // of a search of one place: more finds no more of them
@@ -27,7 +29,7 @@ RecoveryRequest RecoveryPlan::next(LoopState& loop, const Frame& frame, const Ca
                           .sought = none,
                           .thorough = none};
   seek_lost(loop, frame, best, request);
-  if (!request.lost) check_elsewhere(loop, frame, request);
+  if (!request.lost && !any(rests_)) check_elsewhere(loop, frame, request);
   if (!request.lost && !request.contradicts) {
     seek_nearby(loop, best, request);
     if (is_in_background(loop)) request.sought = none;
@@ -43,15 +45,9 @@ bool RecoveryPlan::is_for_background(const LoopState& loop, const RecoveryReques
   return true;
 }
 
-bool RecoveryPlan::rests(std::size_t model, bool is_poor) {
-  constexpr unsigned kPatience = 4;  // frames
-  unsigned& count = poor_[model];
-  if (!is_poor) {
-    count = std::min(count, kPatience);
-    count -= count > 0;
-    return false;
-  }
-  return ++count > kPatience && count % kPatience != 0;
+bool RecoveryPlan::rests(std::size_t model) {
+  const unsigned count = ++poor_[model];
+  return count > kPatience && count % kPatience != 0;
 }
 
 void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidate& best,
@@ -70,13 +66,21 @@ void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidat
     // A doubtful first pose may prove right.
     if (is_unknown(track.phase()) && is_sought && p >= loop.settings.thresholds.uncertain_above)
       is_sought = doubtful_finds_.next();
-    const bool is_poor = is_sought && best.answers() && best.shown[m] && has_pose(track.phase()) &&
+    const bool is_poor = best.answers() && best.shown[m] && has_pose(track.phase()) &&
                          p >= loop.settings.thresholds.uncertain_above;
-    rests_[m] = rests(m, is_poor);
-    if (!is_sought || rests_[m]) continue;
-    request.sought[m] = request.lost = true;
+    if (!is_sought) poor_[m] = std::max(std::min(poor_[m], kPatience), 1U) - 1;
+    if (!is_sought) continue;
+    if (!is_poor) poor_[m] = 0;
     request.thorough[m] = track.is_time_to_search_all();
+    rests_[m] = is_poor && rests(m);
+    request.sought[m] = !rests_[m];
+    request.lost = request.lost || request.sought[m];
   }
+  // A search in the background is for all models that are not right.
+  if (request.lost && is_in_background(loop))
+    for (std::size_t m = 0; m < rests_.size(); ++m)
+      if (std::exchange(rests_[m], false)) request.sought[m] = true;
+  for (std::size_t m = 0; m < rests_.size(); ++m) loop.tracks[m].rest(rests_[m]);
 }
 
 void RecoveryPlan::check_elsewhere(const LoopState& loop, const Frame& frame,

@@ -44,8 +44,8 @@ class RecoveryPlan {
   void restart();
 
  private:
-  /// Counts a frame in which a pose is poor, or not. Returns whether it is followed as it is.
-  bool rests(std::size_t model, bool is_poor);
+  /// Counts a frame of a model whose pose is poor. Returns whether it is followed as it is.
+  bool rests(std::size_t model);
   /// Writes into `request` the models that are lost, and all that is known of every model.
   void seek_lost(LoopState& loop, const Frame& frame, const Candidate& best,
                  RecoveryRequest& request);
@@ -57,9 +57,9 @@ class RecoveryPlan {
   RareTurns doubtful_finds_;    ///< of models in doubtful first poses, to be looked for elsewhere
   RareTurns doubts_;            ///< of doubtful poses, to be compared with others nearby
   std::vector<unsigned> poor_;  ///< by model: recent frames whose pose was poor
-  ModelFlags rests_;            ///< models with poor poses that are followed as they are
-  double checked_ = 0;          ///< time at which detectors last looked for a model elsewhere
-  std::size_t checks_ = 0;      ///< number of these checks, which take turns among the models
+  ModelFlags rests_;        ///< models with poor poses that are followed as they are in this frame
+  double checked_ = 0;      ///< time at which detectors last looked for a model elsewhere
+  std::size_t checks_ = 0;  ///< number of these checks, which take turns among the models
 };
 
 }  // namespace internal

@@ -15,7 +15,8 @@ int twice_area(const cv::Point& a, const cv::Point& b, const cv::Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Fills a triangle. Most are small, for which cv::fillConvexPoly() takes ten times as long.
+/// Fills a triangle: of a small one the pixels whose centres are inside. Most are small, for which
+/// cv::fillConvexPoly(), which draws the edges as well, takes ten times as long.
 void fill(const std::array<cv::Point, 3>& corners, cv::Mat1b& out) {
   constexpr int kSmall = 8;  // pixels
   auto [a, b, c] = corners;

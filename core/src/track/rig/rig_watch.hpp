@@ -29,9 +29,9 @@ class RigWatch {
 
   /// Takes the next frame as it came. Frames without two views of colour teach nothing.
   void look(const Frame& frame);
-  /// Returns whether the rows are still measured often, so that look() had better be done before
-  /// the frame is searched.
-  bool is_new() const { return frames_ < kInterval; }
+  /// Returns whether look() measures rows of which little is known: do it before the frame is
+  /// searched. Later measurements may take effect in the next frame.
+  bool learns_rows() const { return frames_ < kInterval && frames_ >= next_; }
   /// Takes the map from the second view's colours to the first's in a frame that was tracked.
   void look_at_colors(int frame, const ColorMap& colors);
 

@@ -92,8 +92,8 @@ class Quads {
   Numbers numbers_;
 };
 
-/// Returns the masked colours without the means of their windows' masked ones, and the number of
-/// these.
+/// Subtracts from each masked colour the mean of those in its window. The fourth number is their
+/// count.
 Quads without_local_mean(const cv::Mat3f& color, const cv::Mat1b& mask) {
   Quads shown(color.size());  // colour, 1
   for (int y = 0; y < color.rows; ++y)
