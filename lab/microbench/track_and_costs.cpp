@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "hypotrack/api/error.hpp"
 #include "hypotrack/api/session.hpp"
 #include "hypotrack/plugin/source.hpp"
 
@@ -41,6 +42,8 @@ void measure(const char* file, int count) {
   std::vector<Frame> frames;
   for (auto frame = source->next(); frame && std::ssize(frames) < count; frame = source->next())
     frames.push_back(*frame);
+  if (std::ssize(frames) <= kWarmUp || !frames.front().truth)
+    throw Error("the scene needs a truth and more than 10 frames, and FRAMES has to be more, too");
   for (Frame& frame : frames) {  // pictures alone, but in the first the truth, to start from
     for (View& view : frame.views) view = {.color = view.color};
     if (&frame != &frames.front()) frame.truth.reset();
