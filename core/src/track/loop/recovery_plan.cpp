@@ -78,8 +78,10 @@ void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidat
   }
   // A search in the background is for all models that are not right.
   if (request.lost && is_in_background(loop))
-    for (std::size_t m = 0; m < rests_.size(); ++m)
-      if (std::exchange(rests_[m], false)) request.sought[m] = true;
+    for (std::size_t m = 0; m < rests_.size(); ++m) {
+      request.sought[m] = request.sought[m] || rests_[m];
+      rests_[m] = false;
+    }
   for (std::size_t m = 0; m < rests_.size(); ++m) loop.tracks[m].rest(rests_[m]);
 }
 
