@@ -13,8 +13,8 @@
 
 namespace hypotrack::landmarks {
 
-/// What finds hands in a picture: HandDetector, or what stands in for it. Several threads call it at
-/// the same time.
+/// What finds hands in a picture: HandDetector, or what stands in for it. Several threads call it
+/// at the same time.
 struct Detector {
   std::function<std::vector<HandDetection>(const cv::Mat& picture)> detect;
   /// `followed`: the guess is the hand of the last frame, moved, and not a model's.
