@@ -258,9 +258,7 @@ class PixelObjective : public DeviceObjective {
   template <class AnyKernel>
   void allow_shared(AnyKernel* kernel) {
     if (!allowed_.insert(reinterpret_cast<const void*>(kernel)).second) return;
-    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                               limits_.shared_bytes_per_block - detail::kReservedBytes),
-          "reserving shared memory");
+    allow_shared_memory(kernel, limits_);
     check(cudaFuncSetAttribute(kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
                                cudaSharedmemCarveoutMaxShared),
           "choosing shared memory over cache");

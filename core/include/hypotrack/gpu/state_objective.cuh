@@ -5,9 +5,9 @@
 #include <cstring>
 #include <type_traits>
 
+#include "hypotrack/gpu/block_memory.cuh"
 #include "hypotrack/gpu/pose.cuh"
 #include "hypotrack/gpu/runtime.cuh"
-#include "hypotrack/gpu/shared_memory.cuh"
 
 namespace hypotrack::cuda {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "hypotrack/gpu/block_memory.cuh"
 #include "hypotrack/gpu/cull.cuh"
 #include "hypotrack/gpu/drawn.cuh"
 #include "hypotrack/gpu/pose.cuh"
 #include "hypotrack/gpu/runtime.cuh"
-#include "hypotrack/gpu/shared_memory.cuh"
 #include "hypotrack/gpu/vertices.cuh"
 
 namespace hypotrack::cuda::internal {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "hypotrack/gpu/evaluate.cuh"
-#include "hypotrack/gpu/shared_memory.cuh"
 
 namespace hypotrack::cuda::internal {
 namespace {
