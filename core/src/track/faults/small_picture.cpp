@@ -60,11 +60,10 @@ SmallPicture shrink(const cv::Mat& color) {
 }
 
 float gain_between(const SmallPicture& before, const SmallPicture& now) {
-  constexpr std::size_t kMostStep = 29, kLeast = 4;  // a quarter of the cells that are looked at
+  constexpr std::size_t kStep = 7, kLeast = 4;  // a quarter of the cells
   constexpr int kDarkest = 16 * SmallPicture::kLevel;
-  const std::size_t step = std::min(kMostStep, 1 + now.cells.size() / 64);
   std::vector<float> clear, all;
-  for (std::size_t i = 0; i < now.cells.size(); i += step) {
+  for (std::size_t i = 0; i < now.cells.size(); i += kStep) {
     if (before.cells[i] < kDarkest) continue;
     const std::uint16_t brighter = std::max(before.cells[i], now.cells[i]);
     all.push_back(static_cast<float>(now.cells[i]) / static_cast<float>(before.cells[i]));
@@ -72,7 +71,7 @@ float gain_between(const SmallPicture& before, const SmallPicture& now) {
   }
   // Clipped cells tell a bound only.
   std::vector<float>& ratios = kLeast * clear.size() >= all.size() ? clear : all;
-  const bool tells = kLeast * ratios.size() > now.cells.size() / step;
+  const bool tells = kLeast * ratios.size() > now.cells.size() / kStep;
   return tells ? upper_median(std::move(ratios)) : 1.0F;
 }
 
