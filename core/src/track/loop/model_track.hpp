@@ -23,12 +23,11 @@ class ModelTrack {
 
   Phase phase() const { return phase_; }
 
-  /// Follows the pose as it is until the next judge(), without a search for a better one; or not.
+  /// Sets whether the pose rests until the next judge(): no better one is searched.
   void rest(bool rests) { rests_ = rests; }
-  /// Returns whether searches or a detector confirmed the pose, in this frame or, while it rests,
-  /// in the last one that it did not.
+  /// Returns whether the pose rests and was confirmed in the frame before.
   bool keeps_confirmed() const { return rests_ && confirmed_; }
-  /// Returns the same of a detector that saw the model near the pose.
+  /// Returns whether the pose rests and a detector had seen the model near it by the frame before.
   bool keeps_detected() const { return rests_ && detected_; }
   /// Judges the pose of a frame. Returns the model's status.
   Status judge(const StatusMeasures& measures);
