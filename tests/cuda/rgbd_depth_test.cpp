@@ -9,9 +9,7 @@
 #include <vector>
 
 #include "../support/device.hpp"
-#include "checks.hpp"
 #include "cuda/device_frame.hpp"
-#include "depth_range.hpp"
 #include "depth_scene.hpp"
 #include "device_scores.hpp"
 #include "expect_error.hpp"

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "checks.hpp"
 #include "colored_box.hpp"
 #include "cuda/device_foreground.hpp"
 #include "device.hpp"
@@ -18,6 +17,7 @@
 #include "hypotrack/api/error.hpp"
 #include "made_up_frame.hpp"
 #include "observations.hpp"
+#include "rule.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::skin {

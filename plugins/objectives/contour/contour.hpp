@@ -9,12 +9,11 @@
 
 #include "color_histograms.hpp"
 #include "contour_views.hpp"
-#include "depth_term.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "hypotrack/plugin/plugin_object.hpp"
-#include "line_term.hpp"
 #include "params.hpp"
 #include "region_fit.hpp"
+#include "terms.hpp"
 
 namespace hypotrack::contour {
 

@@ -6,7 +6,6 @@
 
 #include "hypotrack/plugin/pixel.hpp"
 #include "line_distribution.hpp"
-#include "mixed_edge.hpp"
 
 namespace hypotrack::contour {
 namespace {

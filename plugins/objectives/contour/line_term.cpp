@@ -1,12 +1,10 @@
-#include "line_term.hpp"
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/model.hpp"
-#include "pose_slopes.hpp"
+#include "terms.hpp"
 
 namespace hypotrack::contour {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "hypotrack/plugin/params.hpp"
-#include "line_term.hpp"
+#include "terms.hpp"
 
 namespace hypotrack::contour {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "contour_views.hpp"
 #include "correspondence_lines.hpp"
-#include "depth_term.hpp"
 #include "hypotrack/plugin/observation.hpp"
+#include "terms.hpp"
 
 namespace hypotrack::contour {
 

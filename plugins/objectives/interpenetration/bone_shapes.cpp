@@ -1,11 +1,10 @@
-#include "bone_shapes.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "collision_plan.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 #include "surface.hpp"

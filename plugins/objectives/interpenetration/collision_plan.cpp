@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "bone_shapes.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack::interpenetration {

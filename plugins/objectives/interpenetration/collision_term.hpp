@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "collision_shape.hpp"
+#include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/gpu/skeleton.hpp"
 
 namespace hypotrack::interpenetration {
@@ -76,5 +78,12 @@ struct CollisionTerm {
     return cost_and_residuals(state, dimension, team, scratch, IgnoreResidual{});
   }
 };
+
+/// Makes the term on the GPU; null in a build without CUDA. The host memory of `term` must outlive
+/// it.
+std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm& term);
+
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
+const char* capabilities();
 
 }  // namespace hypotrack::interpenetration

@@ -1,5 +1,5 @@
 // Stands in for device_objective.cu in a build without CUDA.
-#include "on_device.hpp"
+#include "collision_term.hpp"
 
 namespace hypotrack::interpenetration {
 std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm&) { return nullptr; }

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "collision_term.hpp"
 #include "hypotrack/gpu/state_objective.cuh"
-#include "on_device.hpp"
 
 namespace hypotrack::interpenetration {
 namespace {

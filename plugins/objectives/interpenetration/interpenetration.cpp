@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "on_device.hpp"
+#include "collision_term.hpp"
 
 namespace hypotrack::interpenetration {
 namespace {

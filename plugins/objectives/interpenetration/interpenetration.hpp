@@ -27,7 +27,7 @@ struct InterpenetrationParams {
 };
 
 /// Keeps fingers, hands and objects from passing through each other. Capsules fill every bone of
-/// every model; a box fills a rigid box (bone_shapes.hpp). The cost is the sum of squared depths
+/// every model; a box fills a rigid box (bone_shapes()). The cost is the sum of squared depths
 /// (mm^2) over all pairs of shapes, where
 ///
 ///   depth = max(0, penetration - tolerance - penetration at rest).

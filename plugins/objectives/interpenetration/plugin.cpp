@@ -1,7 +1,7 @@
 #include "hypotrack/plugin/plugin.hpp"
 
+#include "collision_term.hpp"
 #include "interpenetration.hpp"
-#include "on_device.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Stands in for device_objective.cu in a build without CUDA.
-#include "on_device.hpp"
+#include "motion_term.hpp"
 
 namespace hypotrack::plausible_motion {
 std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame) { return nullptr; }

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "hypotrack/gpu/state_objective.cuh"
-#include "on_device.hpp"
+#include "motion_term.hpp"
 
 namespace hypotrack::plausible_motion {
 namespace {

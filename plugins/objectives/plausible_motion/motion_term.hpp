@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 
+#include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/gpu/skeleton.hpp"
 
 /// Cost and residuals of plausible motion; the same source for the CPU and the GPU.
@@ -45,5 +48,14 @@ struct MotionTerm {
     return cost_and_residuals(state, dimension, team, scratch, IgnoreResidual{});
   }
 };
+
+/// Returns the term of a frame, in host memory that is valid until the next call.
+using TermOfFrame = std::function<MotionTerm(const Observation&)>;
+
+/// Makes the term on the GPU; null in a build without CUDA.
+std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame term_of_frame);
+
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
+const char* capabilities();
 
 }  // namespace hypotrack::plausible_motion

@@ -2,7 +2,7 @@
 
 #include "hypotrack/gpu/skeleton.hpp"
 #include "hypotrack/plugin/observation.hpp"
-#include "on_device.hpp"
+#include "motion_term.hpp"
 
 namespace hypotrack::plausible_motion {
 

@@ -1,6 +1,6 @@
 #include "hypotrack/plugin/plugin.hpp"
 
-#include "on_device.hpp"
+#include "motion_term.hpp"
 #include "plausible_motion.hpp"
 
 namespace {

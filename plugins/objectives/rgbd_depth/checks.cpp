@@ -1,10 +1,9 @@
-#include "checks.hpp"
-
 #include <fmt/format.h>
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {

@@ -6,8 +6,8 @@
 #define RGBD_DEPTH_DEPTH_AGREEMENT_INL_HPP_
 #endif
 
+#include "foreground-inl.hpp"
 #include "hypotrack/plugin/pixel.hpp"
-#include "observed.hpp"
 
 /// The per-pixel functions of the rgbd_depth objective, for every lane type (pixel.hpp).
 HYPOTRACK_PIXEL_BEGIN();
@@ -21,7 +21,7 @@ struct DepthAgreement {
   Mask beyond;   ///< r_m but not o_s
 };
 
-/// Compares a covered pixel with the observation there (observed.hpp).
+/// Compares a covered pixel with the observation there (foreground-inl.hpp).
 template <class F>
 HYPOTRACK_PIXEL DepthAgreement<F> depth_agreement(F inverse_depth, F observed, F d_max, F d_match) {
   using pixel::abs;

@@ -1,6 +1,12 @@
 #pragma once
 
+#include <vector>
+
 #include "hypotrack/plugin/pixel.hpp"
+
+namespace hypotrack {
+class Scene;
+}
 
 namespace hypotrack::rgbd_depth {
 
@@ -23,5 +29,11 @@ HYPOTRACK_PIXEL double finger_crossing(const FingerPair* pairs, int count, const
   }
   return sum;
 }
+
+/// Returns the adjacent fingers of every model: index and middle, middle and ring, ring and little
+/// finger. Finds them by the parameters index_abduction, middle_abduction, ring_abduction and
+/// little_abduction. These angles grow towards the thumb, on a right hand and on its mirror image.
+/// The thumb has no pair.
+std::vector<FingerPair> adjacent_fingers(const Scene& scene);
 
 }  // namespace hypotrack::rgbd_depth

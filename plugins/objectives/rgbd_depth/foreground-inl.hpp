@@ -1,10 +1,15 @@
 #pragma once
 
 #include "hypotrack/plugin/pixel.hpp"
-#include "observed.hpp"
 
 /// Foreground of one pixel, for the CPU and for CUDA.
 namespace hypotrack::rgbd_depth {
+
+/// Special values of an observation, which otherwise is z of the foreground in metres. Their
+/// distance from any depth exceeds all thresholds on depth differences.
+inline constexpr float kUnmeasured = -1e6f;  ///< foreground without a depth
+inline constexpr float kBackground = -2e6f;  ///< not foreground, whatever its depth
+inline constexpr float kOutside = -3e6f;     ///< outside the image
 
 /// Rule that decides foreground in one view.
 enum class Rule { mask, depth, skin };
@@ -43,7 +48,7 @@ HYPOTRACK_PIXEL bool is_foreground(const ViewedPixel& pixel, Rule rule, const De
   return (within || !measured) && is_skin(pixel.blue, pixel.green, pixel.red);
 }
 
-/// Returns the observation at a pixel as one number (observed.hpp).
+/// Returns the observation at a pixel as one number (foreground-inl.hpp).
 HYPOTRACK_PIXEL float observed_at(const ViewedPixel& pixel, Rule rule, const DepthRange& range) {
   if (!pixel.valid) return kOutside;
   if (!is_foreground(pixel, rule, range)) return kBackground;

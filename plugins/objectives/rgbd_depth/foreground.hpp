@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #include "foreground-inl.hpp"
@@ -8,6 +9,11 @@
 #include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
+
+/// Returns the range of the posed scene's depths in a camera, widened by `margin` metres at both
+/// ends.
+DepthRange depth_range(const Scene& scene, const Eigen::VectorXd& state, const TileCamera& camera,
+                       double margin);
 
 /// Returns the rule for a view with or without a mask.
 constexpr Rule rule_of(Foreground foreground, bool has_mask) {
@@ -19,7 +25,7 @@ constexpr Rule rule_of(Foreground foreground, bool has_mask) {
 
 /// Observation of one view.
 struct ObservedView {
-  PixelPlane<float> pixels;     ///< observed.hpp per pixel
+  PixelPlane<float> pixels;     ///< foreground-inl.hpp per pixel
   std::int64_t foreground = 0;  ///< number of pixels with o_s, measured or not
   std::int64_t measured = 0;    ///< number of those with a depth
 };

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "energy.hpp"
+#include "foreground-inl.hpp"
 #include "hypotrack/plugin/pixel.hpp"
-#include "observed.hpp"
 
 namespace hypotrack::rgbd_depth {
 

@@ -1,7 +1,7 @@
-#include "residuals.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "score.hpp"
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"
 #include <hypotrack/plugin/foreach_target-inl.hpp>

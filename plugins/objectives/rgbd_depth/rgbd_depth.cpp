@@ -1,8 +1,7 @@
 #include "rgbd_depth.hpp"
 
-#include "checks.hpp"
-#include "depth_range.hpp"
 #include "energy.hpp"
+#include "foreground.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "settings.hpp"

@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "energy.hpp"
-#include "finger_crossing.hpp"
+#include "finger_pair.hpp"
 #include "foreground.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "params.hpp"
-#include "residuals.hpp"
 #include "score.hpp"
 
 namespace hypotrack::rgbd_depth {

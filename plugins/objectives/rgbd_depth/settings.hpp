@@ -3,9 +3,11 @@
 #include <memory>
 
 namespace hypotrack {
+struct Observation;
 namespace cuda {
 class DeviceObjective;
-}
+struct DeviceObservation;
+}  // namespace cuda
 }  // namespace hypotrack
 
 namespace hypotrack::rgbd_depth {
@@ -28,5 +30,13 @@ std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& set
 
 /// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
 const char* capabilities();
+
+/// Throws DataError unless the views fit the objective. At least one view must have depth. Every
+/// view with depth must have what `foreground` needs, in images of its tile's size and of the right
+/// type.
+void check(const Observation& observation, Foreground foreground);
+/// Checks a frame on the device, whose images always have the right size and type. Throws DataError
+/// as above.
+void check(const cuda::DeviceObservation& observation, Foreground foreground);
 
 }  // namespace hypotrack::rgbd_depth

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "settings.hpp"
 
 namespace hypotrack::skin {
+
+/// Draws the silhouette of a scene in a state into a tile: 255 inside, 0 outside.
+cv::Mat1b silhouette(const Scene& scene, const Eigen::VectorXd& state, const TileCamera& camera);
 
 /// Learns one view's foreground colours from the first settings.learn_frames frames that show the
 /// models. Compares colours inside the silhouette of the scene, posed in observation.start, with

@@ -1,7 +1,7 @@
 #include "foreground.hpp"
 
-#include "depth_range.hpp"
 #include "hypotrack/plugin/pixel.hpp"
+#include "rule.hpp"
 
 namespace hypotrack::skin {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "checks.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"
+#include "rule.hpp"
 #include "score.hpp"
 #include "settings.hpp"
 

@@ -3,12 +3,19 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
 #include "hypotrack/plugin/pixel.hpp"
 
 /// Colour spaces of one pixel, for the CPU and for CUDA: channels in 0..1 as features.hpp defines
 /// them.
 namespace hypotrack::stereo_color {
+
+/// Returns the colour of a pixel of a cuda::TileLayout.
+HYPOTRACK_PIXEL Bgr to_bgr(std::uint32_t pixel) {
+  return {static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 8),
+          static_cast<std::uint8_t>(pixel >> 16)};
+}
 
 struct Channels {
   float c0, c1, c2;
@@ -70,6 +77,9 @@ inline constexpr float kLabUnit = 1.0f / 16384.0f;
 struct alignas(8) LabNode {
   std::int16_t l, a, b, unused;
 };
+
+/// Returns the table for to_lab(), computed by OpenCV.
+std::vector<LabNode> lab_nodes();
 
 /// Position of an 8-bit value between two nodes.
 struct LabStep {

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
+
+#include "hypotrack/plugin/pixel.hpp"
 
 namespace hypotrack {
 struct Observation;
 namespace cuda {
 class DeviceObjective;
-}
+struct DeviceObservation;
+}  // namespace cuda
 }  // namespace hypotrack
 
 namespace hypotrack::stereo_color {
@@ -48,5 +52,24 @@ const char* capabilities();
 /// knows the difference of its views. Then it is beta_by_difference / color_difference,
 /// quantize_log() and clamped to beta_min .. beta_max.
 double beta_of(const Settings& settings, const Observation& observation);
+
+/// Returns the score of one direction. `sum` is over the similarities of pixels seen in both views,
+/// `seen` is their number, `rendered` is the number of pixels rendered. Returns 0 without any
+/// pixel.
+HYPOTRACK_PIXEL double aggregate(Aggregation aggregation, double sum, double seen,
+                                 double rendered) {
+  double n = 1.0;
+  if (aggregation == Aggregation::mean_seen) n = seen;
+  if (aggregation == Aggregation::mean_rendered) n = rendered;
+  if (aggregation == Aggregation::sum_per_sqrt) n = std::sqrt(rendered);
+  return n > 0.0 ? sum / n : 0.0;
+}
+
+/// Throws DataError unless there are two views with colour, in tiles of 2x2 pixels or more, and
+/// images of their tile's size and type.
+void check(const Observation& observation);
+/// Checks a frame on the device, whose images always have the right size and type. Throws DataError
+/// as above.
+void check(const cuda::DeviceObservation& observation);
 
 }  // namespace hypotrack::stereo_color

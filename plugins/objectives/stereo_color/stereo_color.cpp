@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "aggregation-inl.hpp"
-#include "checks.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "hypotrack/plugin/objective.hpp"

@@ -3,6 +3,7 @@
 #include <memory>
 
 namespace hypotrack {
+struct Observation;
 namespace cuda {
 class DeviceObjective;
 }
@@ -39,5 +40,22 @@ struct Planes {
   float step = 0;   ///< 1/m
   int count = 0;    ///< 2 or more
 };
+
+/// Largest number of planes, whatever their distance.
+inline constexpr int kMostPlanes = 256;
+/// Largest number of values in a volume: large tiles get fewer planes.
+inline constexpr int kMostNumbers = 1 << 26;
+
+/// Returns planes around the scene as posed when the tiles were cut. They reach settings.range in
+/// front of and behind it, settings.step pixels of the second view apart, or farther where views
+/// are far apart. The distance is measured where pixels move fastest, among the tile's middle and
+/// corners.
+Planes planes_around(const Observation& observation, const Settings& settings);
+
+/// Returns the weight of a pixel in a frame, in 0..1. It is 1 unless full_at_difference is set and
+/// the frame knows the difference of its views. Then it is (color_difference /
+/// full_at_difference)^2, quantize_log() and at most 1. The square is used because colours count by
+/// the inverse of their noise's variance.
+double share_of(const Settings& settings, const Observation& observation);
 
 }  // namespace hypotrack::stereo_patch

@@ -6,7 +6,6 @@
 
 #include "hypotrack/plugin/observation.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
-#include "planes.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_patch {
@@ -37,5 +36,9 @@ struct Volume {
 /// `use_mask`, for pixels outside the first view's mask. Uses the best SIMD instruction set of this
 /// machine (or hwy::SetSupportedTargetsForTest); they differ by rounding only.
 void make_volume(const Observation& observation, const Settings& settings, Volume& volume);
+
+/// Converts a tile to grey in 0..1, with `margin` columns before and behind each row. Invalid
+/// pixels and margins are NaN, so that every sum over such a pixel is NaN.
+PixelPlane<float> gray_tile(const TileView& view, int margin);
 
 }  // namespace hypotrack::stereo_patch

@@ -1,7 +1,6 @@
 #include "cuda/device_frame.hpp"
 
-#include "depth_range.hpp"
-#include "finger_crossing.hpp"
+#include "finger_pair.hpp"
 #include "foreground.hpp"
 
 namespace hypotrack::rgbd_depth {

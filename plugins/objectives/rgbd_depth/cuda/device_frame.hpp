@@ -18,7 +18,7 @@ class DeviceFrame {
   /// Enqueues the computation for a frame that was checked (checks.hpp).
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
-  /// Returns device memory: observed.hpp per pixel; null for a view without depth.
+  /// Returns device memory: foreground-inl.hpp per pixel; null for a view without depth.
   const float* observed(int view) const { return views_[static_cast<std::size_t>(view)]; }
   /// Returns device memory: the counts over all views.
   const Counts* counts() const { return counts_.data(); }

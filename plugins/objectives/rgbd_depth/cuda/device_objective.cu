@@ -1,6 +1,5 @@
 #include <memory>
 
-#include "checks.hpp"
 #include "cuda/depth_term.cuh"
 #include "cuda/device_frame.hpp"
 #include "hypotrack/gpu/pixel_objective.cuh"

@@ -19,7 +19,7 @@ struct ViewJob {
   cuda::TileLayout tile;
   Rule rule;
   DepthRange range;
-  float* observed;  ///< device memory: observed.hpp, row by row without gaps
+  float* observed;  ///< device memory: foreground-inl.hpp, row by row without gaps
 };
 
 struct ObserveJob {

@@ -1,9 +1,8 @@
 #include "cuda/device_foreground.hpp"
 
-#include "checks.hpp"
 #include "color_learner.hpp"
 #include "cuda/foreground_job.hpp"
-#include "depth_range.hpp"
+#include "rule.hpp"
 
 namespace hypotrack::skin {
 namespace {

@@ -1,5 +1,4 @@
 #include "cuda/device_objective.cuh"
-#include "cuda/lookups.hpp"
 
 namespace hypotrack::stereo_color {
 

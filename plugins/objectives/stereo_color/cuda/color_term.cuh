@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "aggregation-inl.hpp"
 #include "color_consistency-inl.hpp"
 #include "cuda/feature_job.hpp"
 #include "hypotrack/gpu/pixel_walk.cuh"

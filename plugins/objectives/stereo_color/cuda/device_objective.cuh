@@ -2,7 +2,6 @@
 
 #include <memory>
 
-#include "checks.hpp"
 #include "cuda/color_term.cuh"
 #include "cuda/feature_maps.hpp"
 #include "hypotrack/gpu/pixel_objective.cuh"
@@ -44,5 +43,8 @@ std::unique_ptr<cuda::DeviceObjective> make_with_lookup(const Settings& settings
   }
   return std::make_unique<DeviceStereoColor<kBilinear, false>>(settings);
 }
+
+/// Returns make_with_lookup<true>().
+std::unique_ptr<cuda::DeviceObjective> make_bilinear(const Settings& settings);
 
 }  // namespace hypotrack::stereo_color

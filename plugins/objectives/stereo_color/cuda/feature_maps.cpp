@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "lab_nodes.hpp"
+#include "color-inl.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {

@@ -1,5 +1,5 @@
+#include "color-inl.hpp"
 #include "cuda/feature_job.hpp"
-#include "cuda/tile_pixel.cuh"
 #include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::stereo_color {

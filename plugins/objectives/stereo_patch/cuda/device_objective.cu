@@ -5,7 +5,6 @@
 #include "cuda/patch_term.cuh"
 #include "hypotrack/gpu/pixel_objective.cuh"
 #include "settings.hpp"
-#include "share.hpp"
 
 namespace hypotrack::stereo_patch {
 namespace {

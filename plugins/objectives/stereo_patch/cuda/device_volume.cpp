@@ -3,7 +3,7 @@
 #include "cuda/fill_job.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
-#include "planes.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_patch {
 

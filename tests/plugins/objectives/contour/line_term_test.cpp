@@ -1,11 +1,10 @@
-#include "line_term.hpp"
-
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "box_pictures.hpp"
 #include "jacobian_contract.hpp"
+#include "terms.hpp"
 #include "test_models.hpp"
 #include "written_residuals.hpp"
 

@@ -7,7 +7,6 @@
 #include "color_histograms.hpp"
 #include "correspondence_lines.hpp"
 #include "line_distribution.hpp"
-#include "mixed_edge.hpp"
 
 namespace hypotrack::contour {
 namespace {

@@ -6,9 +6,8 @@
 
 #include "contour_views.hpp"
 #include "model_contours.hpp"
-#include "surface_points.hpp"
+#include "terms.hpp"
 #include "test_models.hpp"
-#include "trace_contour.hpp"
 
 namespace hypotrack::contour {
 namespace {

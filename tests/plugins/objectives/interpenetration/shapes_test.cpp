@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "bone_shapes.hpp"
+#include "collision_plan.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 #include "make_model.hpp"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "depth_scene.hpp"
-#include "finger_crossing.hpp"
+#include "finger_pair.hpp"
 #include "rgbd_depth.hpp"
 #include "test_models.hpp"
 

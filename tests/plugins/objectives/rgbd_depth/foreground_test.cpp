@@ -7,11 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "depth_range.hpp"
 #include "depth_scene.hpp"
+#include "foreground-inl.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "observed.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::rgbd_depth {

@@ -1,5 +1,3 @@
-#include "residuals.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "depth_scene.hpp"
 #include "every_target.hpp"
 #include "rgbd_depth.hpp"
+#include "score.hpp"
 #include "test_models.hpp"
 #include "written_residuals.hpp"
 

@@ -4,10 +4,10 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "color_learner.hpp"
 #include "colored_box.hpp"
 #include "foreground.hpp"
 #include "hypotrack/plugin/pixel.hpp"
-#include "silhouette.hpp"
 
 namespace hypotrack::skin {
 namespace {

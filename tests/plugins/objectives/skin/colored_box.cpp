@@ -2,8 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "color_learner.hpp"
 #include "depth_scene.hpp"
-#include "silhouette.hpp"
 
 namespace hypotrack::skin {
 namespace {

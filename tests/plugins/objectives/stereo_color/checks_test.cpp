@@ -1,5 +1,3 @@
-#include "checks.hpp"
-
 #include <gtest/gtest.h>
 
 #include <string>
@@ -7,6 +5,7 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "random_pair.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {

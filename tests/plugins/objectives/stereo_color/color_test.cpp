@@ -7,7 +7,6 @@
 
 #include "color-inl.hpp"
 #include "hypotrack/plugin/pixel.hpp"
-#include "lab_nodes.hpp"
 
 // The colour arithmetic that CUDA shares, against OpenCV's, which the CPU uses.
 namespace hypotrack::stereo_color {

@@ -1,8 +1,7 @@
-#include "planes.hpp"
-
 #include <gtest/gtest.h>
 
 #include "patch_pair.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_patch {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "hypotrack/plugin/objective.hpp"
-#include "planes.hpp"
 #include "settings.hpp"
 
 // The objective once more, in double precision, one pixel and one patch at a time and straight from

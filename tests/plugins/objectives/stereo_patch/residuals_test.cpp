@@ -8,9 +8,8 @@
 
 #include "every_kernel_target.hpp"
 #include "patch_pair.hpp"
-#include "planes.hpp"
 #include "score.hpp"
-#include "share.hpp"
+#include "settings.hpp"
 #include "stereo_patch.hpp"
 #include "volume_kernel.hpp"
 #include "written_residuals.hpp"

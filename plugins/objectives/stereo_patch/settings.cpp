@@ -1,10 +1,12 @@
-#include "planes.hpp"
+#include "settings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "hypotrack/plugin/kinematics.hpp"
+#include "hypotrack/plugin/numbers.hpp"
+#include "hypotrack/plugin/observation.hpp"
 #include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
 
@@ -61,6 +63,12 @@ Planes planes_around(const Observation& observation, const Settings& settings) {
   const double wanted = (std::isfinite(most) ? std::min(most, kLongest) : kLongest) / settings.step;
   const int count = std::clamp(static_cast<int>(std::ceil(wanted)) + 1, 2, room);
   return {first, (last - first) / static_cast<float>(count - 1), count};
+}
+
+double share_of(const Settings& settings, const Observation& observation) {
+  if (settings.full_at_difference <= 0 || observation.context.color_difference <= 0) return 1;
+  const double ratio = observation.context.color_difference / settings.full_at_difference;
+  return std::min(quantize_log(ratio * ratio), 1.0);
 }
 
 }  // namespace hypotrack::stereo_patch

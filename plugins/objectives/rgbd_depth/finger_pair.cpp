@@ -1,10 +1,12 @@
-#include "finger_crossing.hpp"
+#include "finger_pair.hpp"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {
