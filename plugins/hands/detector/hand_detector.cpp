@@ -12,7 +12,7 @@
 #include "hand_picture.hpp"
 #include "hypotrack/api/error.hpp"
 #include "palm_detector.hpp"
-#include "tiles.hpp"
+#include "region.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core/types.hpp>
+#include <vector>
 
 #include "hand_detection.hpp"
 #include "palm_detector.hpp"
@@ -26,5 +28,12 @@ bool nearly_equal(const Region& a, const Region& b, double share);
 
 /// Returns the rotation from the region's axes to those of the picture.
 Eigen::Matrix2d rotation_of(const Region& region);
+
+/// Returns the sides in pixels of square tiles in which to look for ever smaller hands, down to
+/// those `smallest_hand` pixels long; 0: none.
+std::vector<int> tile_sides(const cv::Size& picture, double smallest_hand);
+
+/// Returns tiles of that side that overlap by half or more and cover the picture.
+std::vector<cv::Rect> tiles(const cv::Size& picture, int side);
 
 }  // namespace hypotrack::hands

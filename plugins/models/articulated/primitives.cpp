@@ -1,8 +1,8 @@
-#include "primitives.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "surface.hpp"
 
 namespace hypotrack::articulated {
 namespace {

@@ -11,7 +11,7 @@
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/api/media.hpp"
 #include "hypotrack/api/mesh_io.hpp"
-#include "primitives.hpp"
+#include "surface.hpp"
 
 namespace hypotrack::articulated {
 namespace {

@@ -1,8 +1,8 @@
-#include "axes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "rigging.hpp"
 
 namespace hypotrack {
 

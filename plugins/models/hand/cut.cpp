@@ -1,5 +1,3 @@
-#include "cut.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "hypotrack/api/error.hpp"
+#include "rigging.hpp"
 
 namespace hypotrack {
 namespace {

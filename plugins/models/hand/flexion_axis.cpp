@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "axes.hpp"
 #include "rigging.hpp"
 
 namespace hypotrack {

@@ -16,7 +16,6 @@
 #include "hypotrack/api/mesh_io.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 #include "hypotrack/plugin/shape.hpp"
-#include "names.hpp"
 #include "palm.hpp"
 #include "rig.hpp"
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "axes.hpp"
 #include "rigging.hpp"
 
 namespace hypotrack {

@@ -1,9 +1,13 @@
 #include "rig.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/error.hpp"
+#include "hypotrack/api/text.hpp"
 
 namespace hypotrack {
 
@@ -77,6 +81,11 @@ void Rig::visit(ParamVisitor& v) {
 
 Rig read_rig(const std::filesystem::path& file) {
   return ParamReader(ConfigNode::load(file)).read<Rig>();
+}
+
+std::string hint_about(const std::string& name, const std::vector<std::string>& known) {
+  const std::string hint = did_you_mean(name, known);
+  return hint.empty() ? fmt::format("; there are: {}", fmt::join(known, ", ")) : hint;
 }
 
 }  // namespace hypotrack

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 // # The rig file
 //
 // A rig tells hypotrack the meaning of a skinned mesh file's bones, so that the same 27 parameters
@@ -165,5 +168,9 @@ Rig read_rig(const std::filesystem::path& file);
 /// rig. `where` names the rig in messages. Throws DataError if they do not fit: bones or parameters
 /// that are unknown, missing or used twice, or points that coincide.
 ModelData rig_hand(const ImportedMesh& imported, const Rig& rig, const std::string& where);
+
+/// Returns a hint for a message about an unknown name: "; did you mean 'index_tip'?" if a known
+/// name is near, otherwise the list of known names.
+std::string hint_about(const std::string& name, const std::vector<std::string>& known);
 
 }  // namespace hypotrack

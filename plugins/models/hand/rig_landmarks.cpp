@@ -4,7 +4,7 @@
 #include <map>
 
 #include "hand_parameters.hpp"
-#include "names.hpp"
+#include "rig.hpp"
 #include "rigging.hpp"
 
 namespace hypotrack {

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hypotrack/plugin/model.hpp"
 #include "rig.hpp"
 
 namespace hypotrack {
@@ -63,6 +65,11 @@ void add_bone(Rigging& r, std::size_t index);
 
 void add_landmarks(Rigging& r);
 
+/// Removes everything with y < `limit` from a mesh and closes the holes with flat caps, so that it
+/// stays watertight. New vertices lie on the cut edges, with the bone influences of the end that is
+/// kept. Throws DataError, naming `where`, if nothing is left.
+void cut_below(Mesh& mesh, double limit, const std::string& where);
+
 // --- Parts of add_bone()
 
 /// Returns where a bone begins, in the hand frame.
@@ -84,5 +91,20 @@ Eigen::Vector3d flexion_axis(const Rigging& r, std::size_t index, int parent,
 /// the angle at the bind pose.
 void drive(Rigging& r, std::size_t index, const std::string& name, const Eigen::Vector3d& axis,
            double measured);
+
+/// The three angles of a bone in its zero frame (rig.hpp, "Angles"), radians.
+struct BoneAngles {
+  double abduction = 0;
+  double twist = 0;
+  double flexion = 0;
+};
+
+Eigen::Matrix3d rotation(const BoneAngles& angles);
+
+/// Returns the angles of a rotation; inverse of rotation().
+BoneAngles angles_of(const Eigen::Matrix3d& r);
+
+/// Returns the unit vector called x, -x, y, -y, z or -z; nothing for every other name.
+std::optional<Eigen::Vector3d> axis_by_name(const std::string& name);
 
 }  // namespace hypotrack

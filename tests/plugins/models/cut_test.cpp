@@ -1,10 +1,9 @@
-#include "cut.hpp"
-
 #include <gmock/gmock.h>
 
 #include <map>
 
 #include "hypotrack/api/error.hpp"
+#include "rigging.hpp"
 
 namespace hypotrack::test {
 namespace {

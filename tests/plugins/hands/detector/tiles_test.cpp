@@ -1,6 +1,6 @@
-#include "tiles.hpp"
-
 #include <gmock/gmock.h>
+
+#include "region.hpp"
 
 namespace hypotrack::hands {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
-#include "primitives.hpp"
 #include "scene/mesh_topology.hpp"
 
 namespace hypotrack::articulated {

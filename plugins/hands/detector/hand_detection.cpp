@@ -1,7 +1,8 @@
-#include <Eigen/LU>
-#include <array>
-
 #include "hand_detection.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
 
 namespace hypotrack::hands {
 namespace {
@@ -37,6 +38,11 @@ const Weights& joints_from_landmarks() {
   return weights;
 }
 
+bool same(const HandPoints& a, const HandPoints& b) {
+  constexpr double kShare = 0.15;  // of the larger hand's size
+  return (a - b).colwise().norm().mean() < kShare * std::max(size_of(a), size_of(b));
+}
+
 }  // namespace
 
 HandPoints joints_of(const HandPoints& landmarks) { return landmarks * joints_from_landmarks(); }
@@ -48,6 +54,15 @@ HandPoints3D joints_of(const HandPoints3D& landmarks) {
 HandPoints landmarks_at(const HandPoints& joints) {
   static const Weights inverse = joints_from_landmarks().inverse();
   return joints * inverse;
+}
+
+void add_or_merge(std::vector<HandDetection>& hands, const HandDetection& hand) {
+  for (HandDetection& other : hands) {
+    if (!same(other.landmarks, hand.landmarks)) continue;
+    if (hand.presence > other.presence) other = hand;
+    return;
+  }
+  hands.push_back(hand);
 }
 
 }  // namespace hypotrack::hands
