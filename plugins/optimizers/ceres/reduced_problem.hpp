@@ -7,9 +7,20 @@
 
 #include "hypotrack/plugin/linearization.hpp"
 #include "hypotrack/plugin/offset_space.hpp"
+#include "hypotrack/plugin/optimizer.hpp"
 #include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
+
+/// D residuals r and their DxD Jacobian J.
+struct ReducedResiduals {
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd jacobian;
+};
+
+/// Returns the residuals that have these normal equations: J^T J = a and J^T r = g. Their squares
+/// sum to the part of the cost that steps can change. The matrix may be singular.
+ReducedResiduals reduce(const NormalEquations& equations);
 
 /// A cost as a least-squares problem of few residuals: those of reduce() and one more, so that half
 /// the sum of squares is half the cost plus a constant. Steps, costs and gradients are those of the

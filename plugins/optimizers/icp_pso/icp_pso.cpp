@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "constriction.hpp"
 #include "hypotrack/plugin/search.hpp"
+#include "swarm.hpp"
 
 namespace hypotrack {
 namespace {

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "constriction.hpp"
 #include "hypotrack/plugin/particle.hpp"
 #include "hypotrack/plugin/search.hpp"
-#include "limbs.hpp"
+#include "swarm.hpp"
 
 namespace hypotrack {
 namespace {

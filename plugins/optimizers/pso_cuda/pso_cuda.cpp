@@ -4,11 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "constriction.hpp"
 #include "hypotrack/api/stop.hpp"
 #include "hypotrack/gpu/device_cost.hpp"
 #include "hypotrack/plugin/search.hpp"
 #include "search_graph.hpp"
+#include "swarm.hpp"
 #include "swarm_memory.hpp"
 
 namespace hypotrack {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hypotrack/plugin/start_points.hpp"
-#include "limbs.hpp"
+#include "swarm.hpp"
 
 namespace hypotrack::cuda {
 

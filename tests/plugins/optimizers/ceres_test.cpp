@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "ceres/ceres_optimizer.hpp"
-#include "ceres/reduced_residuals.hpp"
+#include "ceres/reduced_problem.hpp"
 #include "hypotrack/api/error.hpp"
 #include "search_problems.hpp"
 

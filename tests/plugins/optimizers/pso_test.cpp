@@ -8,7 +8,7 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/random.hpp"
-#include "pso/constriction.hpp"
+#include "pso/swarm.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {
