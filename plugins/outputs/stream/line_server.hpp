@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "address.hpp"
+#include "listener.hpp"
 #include "reader.hpp"
 
 namespace hypotrack::stream {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <deque>
 #include <optional>
 
@@ -17,7 +19,18 @@ struct PairPlaces {
 
 /// Finds the newest picture of the first queue that has a partner in the second: the nearest in
 /// time, at most `tolerance` nanoseconds away. Both queues are in order of time.
-std::optional<PairPlaces> newest_pair(const std::deque<Picture>& first,
-                                      const std::deque<Picture>& second, std::int64_t tolerance);
+inline std::optional<PairPlaces> newest_pair(const std::deque<Picture>& first,
+                                             const std::deque<Picture>& second,
+                                             std::int64_t tolerance) {
+  for (std::size_t i = first.size(); i-- > 0;) {
+    const auto distance = [&](const Picture& other) {
+      return std::abs(other.stamp - first[i].stamp);
+    };
+    const auto nearest = std::ranges::min_element(second, {}, distance);
+    if (nearest == second.end() || distance(*nearest) > tolerance) continue;
+    return PairPlaces{i, static_cast<std::size_t>(nearest - second.begin())};
+  }
+  return std::nullopt;
+}
 
 }  // namespace hypotrack::live

@@ -9,7 +9,6 @@
 
 #include "background.hpp"
 #include "cards.hpp"
-#include "depth_sensor.hpp"
 #include "faults.hpp"
 #include "hypotrack/api/renderer.hpp"
 #include "hypotrack/plugin/plugin.hpp"

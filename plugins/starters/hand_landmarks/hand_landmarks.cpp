@@ -2,21 +2,93 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hand_detector.hpp"
 #include "hand_model.hpp"
 #include "hand_pairs.hpp"
-#include "hand_size.hpp"
+#include "hypotrack/api/camera.hpp"
+#include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/landmark_fit.hpp"
 #include "hypotrack/plugin/plugin.hpp"
-#include "other_view.hpp"
 #include "side_check.hpp"
 
 namespace hypotrack::hands {
 namespace {
+
+/// Returns the landmarks in the world of a hand that is `size` times as large as an average one.
+HandPoints3D in_world(const Camera& camera, const HandDetection& hand, double size) {
+  const HandPoints3D rays = back_project(camera, hand.landmarks);
+  const auto spread = [](const HandPoints& points) {
+    return std::sqrt((points.colwise() - points.rowwise().mean()).squaredNorm());
+  };
+  const double depth = size * spread(hand.relative.topRows<2>()) / spread(rays.topRows<2>());
+  HandPoints3D out;
+  for (Eigen::Index i = 0; i < out.cols(); ++i)
+    out.col(i) = rays.col(i) * (depth + size * hand.relative(2, i));
+  return camera.camera_from_world.inverse() * out;
+}
+
+HandPoints projected(const Camera& camera, const HandPoints3D& landmarks) {
+  HandPoints out;
+  for (Eigen::Index i = 0; i < out.cols(); ++i) out.col(i) = project(camera, landmarks.col(i));
+  return out;
+}
+
+/// Looks for the hands of one view in the other, where a hand of average size would be. Adds what
+/// it finds beside the hands that are known there.
+void look_in_other_view(const HandDetector& detector, const std::array<Camera, 2>& cameras,
+                        const std::vector<HandDetection>& seen, std::size_t view,
+                        const cv::Mat& other_picture, std::vector<HandDetection>& known) {
+  const std::vector<HandDetection> there = known;
+  for (const HandDetection& hand : seen) {
+    const auto pairs_with = [&](const std::vector<HandDetection>& others) {
+      const std::vector<HandDetection> one{hand};
+      return !(view == 0 ? pair_hands(cameras, one, others) : pair_hands(cameras, others, one))
+                  .empty();
+    };
+    if (pairs_with(there)) continue;
+    for (const double size : {1.0, 0.85, 1.18}) {
+      const std::optional<HandDetection> other = detector.refine(
+          other_picture, projected(cameras[1 - view], in_world(cameras[view], hand, size)));
+      if (!other || !pairs_with({*other})) continue;
+      known.push_back(*other);
+      break;
+    }
+  }
+}
+
+/// Distances in the palm, between landmarks by the detector's order: the wrist to each knuckle, and
+/// the index to the little knuckle.
+constexpr std::array<std::pair<Eigen::Index, Eigen::Index>, 5> kDistances = {
+    {{0, 5}, {0, 9}, {0, 13}, {0, 17}, {5, 17}}};
+
+/// Returns a detected hand's size as a factor on a model's, from the distances within its palm.
+/// Returns nothing if these disagree.
+std::optional<double> relative_size(const Model& model, const HandModel& hand,
+                                    const HandPair& pair) {
+  constexpr double kMostApart = 0.05;  // standard deviation of the logarithms
+  std::vector<double> rest;
+  for (const Parameter& p : model.data().parameters) rest.push_back(p.rest);
+  const HandPoints3D own = hand.in_detector_order(posed_landmarks(model, rest));
+  Eigen::Array<double, 5, 1> logs;
+  for (std::size_t i = 0; i < kDistances.size(); ++i) {
+    const auto [from, to] = kDistances[i];
+    const auto distance = [&, from = from, to = to](const HandPoints3D& points) {
+      return (points.col(from) - points.col(to)).norm();
+    };
+    logs[static_cast<Eigen::Index>(i)] = std::log(distance(pair.landmarks) / distance(own));
+  }
+  const double mean = logs.mean();
+  if (!std::isfinite(mean) || std::sqrt((logs - mean).square().mean()) > kMostApart)
+    return std::nullopt;
+  return std::exp(mean);
+}
 
 class HandLandmarks final : public Starter {
  public:
@@ -150,6 +222,7 @@ class HandLandmarks final : public Starter {
 };
 
 }  // namespace
+
 }  // namespace hypotrack::hands
 
 HYPOTRACK_PLUGIN(hypotrack::hands::HandLandmarks,
