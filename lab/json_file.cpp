@@ -5,7 +5,7 @@
 #include <fstream>
 #include <limits>
 
-#include "base/file_kind.hpp"
+#include "base/file_bytes.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "base/file_kind.hpp"
+#include "base/file_bytes.hpp"
 #include "base/text_file.hpp"
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"

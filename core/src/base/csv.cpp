@@ -10,7 +10,7 @@
 #include <set>
 #include <utility>
 
-#include "base/file_kind.hpp"
+#include "base/file_bytes.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/api/text.hpp"

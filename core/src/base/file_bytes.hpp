@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "base/exported.hpp"
@@ -23,6 +24,10 @@ struct FileBytes {
 /// Reads a whole file, in large pieces. Returns nothing if it cannot be opened or read to its end.
 /// Throws std::system_error if the process has too many open files or too little memory.
 std::optional<FileBytes> read_bytes(const std::filesystem::path& file);
+
+/// Says why a path is no regular file: `no such file`, `is a folder`, `is a device`. Empty if it is
+/// one.
+std::string why_no_file(const std::filesystem::path& path);
 
 }  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "base/file_kind.hpp"
+#include "base/file_bytes.hpp"
 #include "camera/formats/zed_sections.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"

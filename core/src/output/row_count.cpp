@@ -3,7 +3,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "base/file_kind.hpp"
+#include "base/file_bytes.hpp"
 #include "hypotrack/api/error.hpp"
 #include "output/evaluation.hpp"
 #include "output/run_directory.hpp"

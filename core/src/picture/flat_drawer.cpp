@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
 
 #include "cost/hypothesis_drawer.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
-#include "picture/extent.hpp"
 #include "picture/surface.hpp"
 #include "scene/scene_plan.hpp"
 
@@ -141,6 +141,28 @@ void FlatDrawer::draw(const Eigen::VectorXd& given, const LensRays& lens,
       rendered.color.at<cv::Vec3b>(to) = paints[label - 1U].at(*from, surface);
     }
   }
+}
+
+Eigen::AlignedBox2d extent_of(std::span<const Eigen::Matrix3Xf> vertices,
+                              const Eigen::Isometry3d& camera_from_world) {
+  const Eigen::Isometry3f pose = camera_from_world.cast<float>();
+  Eigen::AlignedBox2d box;
+  bool behind = false;
+  for (const Eigen::Matrix3Xf& model : vertices) {
+    const Eigen::Matrix3Xf p = pose * model;
+    for (Eigen::Index i = 0; i < p.cols(); ++i) {
+      if (p(2, i) < 2 * kNearest) {
+        behind = true;
+      } else {
+        box.extend((p.col(i).head<2>() / p(2, i)).cast<double>());
+      }
+    }
+  }
+  if (behind && !box.isEmpty()) {  // a triangle through the camera plane may reach anywhere
+    box.min().setConstant(-std::numeric_limits<double>::infinity());
+    box.max().setConstant(std::numeric_limits<double>::infinity());
+  }
+  return box;
 }
 
 }  // namespace hypotrack::internal

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/exported.hpp"
@@ -12,6 +14,15 @@
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Near clipping distance in metres: a projection has no meaning at the camera's centre.
+inline constexpr double kNearest = 1e-3;
+
+/// Returns the bounding box of vertices (3xV each, world) in the plane z = 1 of a camera:
+/// (x / z, y / z). Empty if nothing is in front of the camera; infinite if some of them are at or
+/// behind it.
+Eigen::AlignedBox2d extent_of(std::span<const Eigen::Matrix3Xf> vertices,
+                              const Eigen::Isometry3d& camera_from_world);
 
 /// Returns the colour (RGB in [0, 1]) of a model drawn without texture, by its index in the scene.
 Eigen::Vector3f flat_color(int model_index);

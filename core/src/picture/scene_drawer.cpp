@@ -13,7 +13,6 @@
 #include "gl/gl_objects.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "picture/drawable.hpp"
-#include "picture/extent.hpp"
 #include "picture/flat_drawer.hpp"
 #include "picture/render_targets.hpp"
 #include "picture/shaders.hpp"

@@ -17,7 +17,6 @@
 #include "plugin/capabilities.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
-#include "plugin/probe.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -55,5 +55,16 @@ std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expecte
 /// the file is not an ELF file of this machine's word size or lacks a whole first header.
 std::uintmax_t elf_size(const std::filesystem::path& file);
 
+/// File descriptor of the probe program's report, separate from anything that a plugin prints.
+inline constexpr int kProbeDescriptor = 3;
+
+// Lines of the report: one as each step begins, then the result as one line of JSON.
+inline constexpr const char* kProbeLoading = "while loading";
+inline constexpr const char* kProbeEntry = "while returning its descriptor";
+inline constexpr const char* kProbeDescribing = "while describing its parameters";
+
+/// Opens a library, writes the report and exits: the probe program's main function.
+[[noreturn]] void run_probe(const std::filesystem::path& file);
+
 }  // namespace internal
 }  // namespace hypotrack::detail

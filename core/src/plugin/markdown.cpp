@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "plugin/capabilities.hpp"
-#include "plugin/help_lines.hpp"
 #include "plugin/inspect.hpp"
+#include "plugin/param_keys.hpp"
 
 namespace hypotrack::internal {
 namespace {

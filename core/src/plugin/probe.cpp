@@ -1,4 +1,3 @@
-#include "plugin/probe.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

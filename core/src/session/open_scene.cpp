@@ -13,9 +13,9 @@
 #include "gl/egl_context.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/text.hpp"
+#include "plugin/param_keys.hpp"
 #include "plugin/plugin_call.hpp"
 #include "plugin/plugin_notes.hpp"
-#include "plugin/scene_keys.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack::internal {

@@ -7,8 +7,7 @@
 
 #include "hypotrack/api/text.hpp"
 #include "plugin/capabilities.hpp"
-#include "plugin/help_lines.hpp"
-#include "plugin/scene_keys.hpp"
+#include "plugin/param_keys.hpp"
 #include "subject.hpp"
 
 namespace hypotrack::contract {

@@ -1,4 +1,4 @@
-#include "plugin/help_lines.hpp"
+#include "plugin/param_keys.hpp"
 
 #include <algorithm>
 
