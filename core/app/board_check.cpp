@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/verdict.hpp"
+#include "calibrate/stereo_calibration.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "calibrate/board_fit.hpp"
 #include "calibrate/check_reach.hpp"
 #include "calibrate/picture_pairs.hpp"
+#include "calibrate/stereo_calibration.hpp"
 #include "calibrate/wrong_board.hpp"
 
 namespace hypotrack::app {

@@ -16,7 +16,6 @@
 #include "calibrate/board.hpp"
 #include "calibrate/coverage.hpp"
 #include "calibrate/stereo_calibration.hpp"
-#include "calibrate/verdict.hpp"
 #include "calibration_output.hpp"
 #include "camera_options.hpp"
 #include "commands.hpp"

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "base/text_file.hpp"
-#include "clicking/click_picture.hpp"
 #include "clicking/clicker.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"

@@ -1,10 +1,9 @@
-#include "calibrate/board_fit.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/corner_noise.hpp"
+#include "calibrate/stereo_calibration.hpp"
 #include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::calibrate {

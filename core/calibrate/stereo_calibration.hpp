@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibrate/board_pair.hpp"
+#include "calibrate/stereo_calibration.hpp"
 #include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::calibrate {
@@ -49,5 +50,29 @@ struct StereoCalibration {
 StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
                                    const std::vector<BoardPair>& pairs,
                                    const std::optional<std::array<Camera, 2>>& lenses = {});
+
+/// What a calibration is worth, in words.
+struct Verdict {
+  bool usable = true;
+  std::string summary;              ///< one sentence
+  std::vector<std::string> advice;  ///< what to do for a better one; empty: nothing
+};
+
+/// Returns what a calibration from these pairs is worth.
+Verdict verdict_of(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration);
+
+/// A board in both pictures as calibrated cameras measure it.
+struct BoardFit {
+  double scale = 1;     ///< measured side of a square as a share of the given one
+  double rms = 0;       ///< distance of the corners from the board in the pictures, pixels
+  double expected = 0;  ///< of corners as sharp as these, pixels; 0: unknown
+  double depth = 0;     ///< of the board's middle before the left camera, metres
+  cv::Point2d centre;   ///< in the left picture, as shares of its width and height
+};
+
+/// Fits a board of unknown scale to both pictures of a pair by least squares. Returns nothing for
+/// few common corners, or if their rays do not meet before the cameras.
+std::optional<BoardFit> fit_board(const BoardFinder& finder, const std::array<Camera, 2>& cameras,
+                                  const BoardPair& pair);
 
 }  // namespace hypotrack::calibrate

@@ -1,5 +1,3 @@
-#include "calibrate/verdict.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "calibrate/coverage.hpp"
+#include "calibrate/stereo_calibration.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -3,12 +3,15 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/clicks.hpp"
+#include "hypotrack/api/frame.hpp"
+#include "hypotrack/api/renderer.hpp"
 #include "hypotrack/api/scene.hpp"
 
 namespace hypotrack::clicking {
@@ -83,5 +86,10 @@ class Clicker {
   std::optional<ClickFit> fit_;
   std::string problem_;  ///< why there is no fit
 };
+
+/// Draws the first two views of a frame side by side with the fit, the marks, the guiding lines and
+/// the text below. `renderer` must be one of `scene`.
+cv::Mat draw_clicks(Renderer& renderer, const Scene& scene, const std::vector<Camera>& cameras,
+                    const Frame& frame, const ClickDrawing& drawing);
 
 }  // namespace hypotrack::clicking

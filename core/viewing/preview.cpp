@@ -12,10 +12,8 @@
 #include <vector>
 
 #include "hypotrack/api/renderer.hpp"
-#include "viewing/preview_keys.hpp"
 #include "viewing/preview_picture.hpp"
 #include "viewing/view_drawing.hpp"
-#include "viewing/yield_to_others.hpp"
 #include "window/window.hpp"
 
 namespace hypotrack {

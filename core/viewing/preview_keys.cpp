@@ -1,6 +1,6 @@
-#include "viewing/preview_keys.hpp"
-
 #include <cctype>
+
+#include "viewing/preview.hpp"
 
 namespace hypotrack {
 

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
-#include "viewing/preview_keys.hpp"
+#include "viewing/preview.hpp"
 #include "viewing/view_drawing.hpp"
 
 namespace hypotrack {

@@ -1,5 +1,8 @@
 #include "viewing/view_drawing.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
@@ -47,6 +50,12 @@ std::vector<cv::Mat> draw_views(Renderer& renderer, const Scene& scene, const Sh
         draw_overlay(renderer, scene, image, cameras[i], shown.state, {.hidden = shown.hidden}));
   }
   return out;
+}
+
+void yield_to_others() {
+  constexpr int kNice = 10;
+  // Linux has a nice value per thread, set by the thread's id in place of a process's.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
 }
 
 }  // namespace hypotrack

@@ -24,4 +24,8 @@ cv::Mat joined(const std::vector<cv::Mat>& pictures, ViewLayout layout);
 std::vector<cv::Mat> draw_views(Renderer& renderer, const Scene& scene, const ShownViews& shown,
                                 const std::vector<Camera>& cameras);
 
+/// Lowers the priority of the calling thread, and of those it will start, so that drawing takes
+/// processor time only where the tracker leaves some.
+void yield_to_others();
+
 }  // namespace hypotrack

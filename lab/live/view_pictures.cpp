@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hypotrack/api/media.hpp"
-#include "viewing/yield_to_others.hpp"
+#include "viewing/view_drawing.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,17 +1,40 @@
 #include "live_pairs/take_pairs.hpp"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "hypotrack/api/error.hpp"
-#include "live_pairs/enter_key.hpp"
 #include "live_pairs/status_line.hpp"
 #include "messages.hpp"
 
 namespace hypotrack::app {
 namespace {
+
+/// Tells whether the user pressed Enter, without waiting. A program in the background never reads.
+class EnterKey {
+ public:
+  bool pressed();
+
+ private:
+  bool ended_ = false;  ///< standard input
+};
+
+bool EnterKey::pressed() {
+  if (isatty(STDIN_FILENO) == 1 && tcgetpgrp(STDIN_FILENO) != getpgrp()) return false;
+  for (pollfd input{STDIN_FILENO, POLLIN, 0}; !ended_ && poll(&input, 1, 0) > 0;) {
+    std::array<char, 256> text{};
+    const ssize_t size = read(STDIN_FILENO, text.data(), text.size());
+    ended_ = size <= 0;
+    if (std::ranges::count(text, '\n') > 0) return true;
+  }
+  return false;
+}
 
 using calibrate::PairLook;
 

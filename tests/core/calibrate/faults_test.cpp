@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "calibrate/verdict.hpp"
+#include "calibrate/stereo_calibration.hpp"
 #include "hypotrack/api/error.hpp"
 #include "stereo_calibration_fixture.hpp"
 

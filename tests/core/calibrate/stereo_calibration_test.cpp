@@ -2,11 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/board_fit.hpp"
 #include "calibrate/check_reach.hpp"
 #include "calibrate/coverage.hpp"
 #include "calibrate/picture_pairs.hpp"
-#include "calibrate/verdict.hpp"
 #include "hypotrack/api/error.hpp"
 #include "stereo_calibration_fixture.hpp"
 #include "test_paths.hpp"

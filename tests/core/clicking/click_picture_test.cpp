@@ -1,10 +1,9 @@
-#include "clicking/click_picture.hpp"
-
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
 #include "clicked_scene.hpp"
+#include "clicking/clicker.hpp"
 
 namespace hypotrack::clicking {
 namespace {

@@ -1,9 +1,9 @@
-#include "viewing/preview_keys.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cctype>
 #include <string>
+
+#include "viewing/preview.hpp"
 
 namespace hypotrack {
 namespace {
