@@ -6,7 +6,6 @@
 
 #include "base/csv.hpp"
 #include "base/text_file.hpp"
-#include "lab/result_folder.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <poll.h>
+#include <strings.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -11,10 +12,19 @@
 #include <cstdio>
 #include <cstring>
 
-#include "lab/live/request_head.hpp"
-
 namespace hypotrack::internal {
 namespace {
+
+constexpr std::array<std::string_view, 8> kUsed = {
+    "Host",          "Origin", "Sec-Fetch-Site", "Sec-Fetch-Mode",
+    "Authorization", "Cookie", "Content-Length", "Transfer-Encoding"};
+
+bool is_used(std::string_view line) {
+  const std::string_view name = line.substr(0, line.find(':'));
+  return std::ranges::any_of(kUsed, [&](std::string_view used) {
+    return used.size() == name.size() && strncasecmp(used.data(), name.data(), name.size()) == 0;
+  });
+}
 
 constexpr std::size_t kMostHead = 16 << 10;
 
@@ -34,6 +44,18 @@ void name(socket_t socket, Function function, std::string& ip, int& port) {
 }
 
 }  // namespace
+
+std::string used_head(std::string_view head) {
+  constexpr std::string_view kEnd = "\r\n";
+  std::string used;
+  for (bool first = true; !head.empty(); first = false) {
+    const std::size_t end = std::min(head.find(kEnd), head.size());
+    const std::string_view line = head.substr(0, end);
+    if (first || is_used(line)) (used += line) += kEnd;
+    head.remove_prefix(std::min(end + kEnd.size(), head.size()));
+  }
+  return used += kEnd;
+}
 
 Connection::Connection(socket_t socket, const std::atomic<bool>& ended, std::size_t most_body)
     : socket_(socket), ended_(ended), most_(most_body) {}

@@ -7,18 +7,57 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <map>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <thread>
 
 #include "base/system_problem.hpp"
 #include "hypotrack/api/error.hpp"
+#include "hypotrack/api/files.hpp"
 #include "lab/live/http_server.hpp"
-#include "lab/live/page_files.hpp"
 #include "lab/live/request_queue.hpp"
 
 namespace hypotrack::internal {
+
+struct PageFile {
+  std::string type;  ///< MIME type
+  std::string content;
+};
+
 namespace {
+
+std::string content_of(const std::string& name) {
+  const std::filesystem::path file = data_file(name);
+  std::string text = read_whole(file).value_or("");
+  if (text.empty())
+    throw DataError(fmt::format("{}: cannot be read; install hypotrack again", file.string()));
+  return text;
+}
+
+std::string type_of(const std::filesystem::path& file) {
+  const std::string suffix = file.extension().string();
+  if (suffix == ".js") return "text/javascript; charset=utf-8";
+  if (suffix == ".css") return "text/css; charset=utf-8";
+  return suffix == ".html" ? "text/html; charset=utf-8" : "text/plain; charset=utf-8";
+}
+
+/// Reads the page of the live view and all files that it names, by their address ("/live.js").
+/// Throws DataError if one cannot be read.
+std::map<std::string, PageFile> live_page_files() {
+  std::map<std::string, PageFile> files;
+  // The 3D view is the report's.
+  for (const char* name : {"live/live.css", "live/live.js", "live/running_plot.js",
+                           "report/decode.js", "report/elements.js", "report/licences.txt",
+                           "report/orbit_controls.js", "report/replay.js", "report/three.js"}) {
+    const std::filesystem::path file(name);
+    files["/" + file.filename().string()] = {type_of(file), content_of(name)};
+  }
+  files["/"] = {type_of("live.html"), content_of("live/live.html")};
+  return files;
+}
 
 using httplib::DataSink;
 using httplib::Request;

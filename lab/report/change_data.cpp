@@ -14,7 +14,7 @@
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/cells.hpp"
-#include "lab/report/number_json.hpp"
+#include "lab/report/packed.hpp"
 #include "lab/report/significance.hpp"
 
 namespace hypotrack::internal {

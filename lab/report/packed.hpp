@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -12,6 +13,11 @@
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Returns a number as JSON; null if it is not finite.
+inline nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
+}
 
 std::string base64(std::span<const std::uint8_t> bytes);
 

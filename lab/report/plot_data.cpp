@@ -10,7 +10,7 @@
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
-#include "lab/report/number_json.hpp"
+#include "lab/report/packed.hpp"
 #include "lab/report/plot_parts.hpp"
 #include "lab/report/trace/trace_plots.hpp"
 

@@ -1,5 +1,3 @@
-#include "lab/report/read_run.hpp"
-
 #include <fmt/format.h>
 
 #include <string_view>
@@ -7,6 +5,7 @@
 #include "base/csv.hpp"
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
+#include "lab/report/study_data.hpp"
 #include "lab/run_numbers.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/run_folder.hpp"

@@ -8,7 +8,6 @@
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "lab/report/read_run.hpp"
 #include "lab/report/study_data.hpp"
 #include "output/run_directory.hpp"
 

@@ -9,12 +9,10 @@
 
 #include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
-#include "lab/report/number_json.hpp"
+#include "lab/report/packed.hpp"
 #include "lab/report/plot_data.hpp"
 #include "lab/report/replay.hpp"
-#include "lab/report/run_series.hpp"
 #include "lab/report/table_data.hpp"
-#include "lab/report/worst_frames.hpp"
 
 namespace hypotrack::internal {
 namespace {

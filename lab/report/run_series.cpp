@@ -1,5 +1,3 @@
-#include "lab/report/run_series.hpp"
-
 #include <fmt/format.h>
 
 #include <limits>
@@ -9,6 +7,7 @@
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
+#include "lab/report/report_data.hpp"
 #include "output/metrics/frame_outcome.hpp"
 #include "output/metrics/status_metrics.hpp"
 

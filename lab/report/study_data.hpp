@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "lab/report/study_data.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -92,6 +93,13 @@ struct StudyData {
 /// DataError if `directory` is neither or a file in it is damaged, ConfigError on an unreadable
 /// study.yaml.
 StudyData read_study(const std::filesystem::path& directory);
+
+/// Reads the results of a run folder: metrics.json and summary.json if they exist, failure.json for
+/// a run that failed. Throws DataError on damaged files.
+void read_results(const std::filesystem::path& directory, StudyRun& run);
+
+/// Reads a finished or failed run of a study: its cell.json and its results.
+StudyRun read_study_run(const std::filesystem::path& directory);
 
 /// Returns numbers in one form, so that 0.10 and 0.1 are the same value; other texts unchanged.
 std::string canonical_value(const std::string& text);

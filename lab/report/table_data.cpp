@@ -10,7 +10,7 @@
 #include "base/statistics.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/cells.hpp"
-#include "lab/report/number_json.hpp"
+#include "lab/report/packed.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,5 +1,3 @@
-#include "lab/report/worst_frames.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "hypotrack/api/media.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
+#include "lab/report/report_data.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string_view>
 
@@ -12,11 +14,15 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// the same on every machine.
 class Hash {
  public:
-  void add(std::string_view text);
+  void add(std::string_view text) {
+    for (const char c : fmt::format("{}:", text.size())) add_byte(static_cast<unsigned char>(c));
+    for (const char c : text) add_byte(static_cast<unsigned char>(c));
+  }
   std::uint64_t value() const { return value_; }
 
  private:
-  void add_byte(unsigned char byte);
+  void add_byte(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3; }
+
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 

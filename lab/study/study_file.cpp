@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "base/numbers.hpp"
@@ -15,13 +16,27 @@
 #include "config/read_value.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/text.hpp"
-#include "lab/study/quick.hpp"
 #include "lab/study/study_grid.hpp"
-#include "lab/study/study_text.hpp"
 #include "output/metrics/metrics.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
+
+/// The variant that every study has, for a look within minutes.
+inline constexpr std::string_view kQuick = "quick";
+
+constexpr int kFrames = 10;
+constexpr std::size_t kQuickSeeds = 2;
+
+/// Reduces a study to a few frames and seeds and to the ends of its axes of values. A study's own
+/// variant of this name then changes what is not quick or not enough.
+void make_quick(Study& study) {
+  study.frames = std::min(study.frames.value_or(kFrames), kFrames);
+  study.seeds.resize(std::min(study.seeds.size(), kQuickSeeds));
+  for (Axis& axis : study.axes)
+    if (axis.is_key && axis.choices.size() > 2)
+      axis.choices.erase(axis.choices.begin() + 1, axis.choices.end() - 1);
+}
 
 using detail::fail_at;
 using detail::fail_type;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
+#include "hypotrack/api/config.hpp"
 #include "hypotrack/plugin/params.hpp"
 
 namespace hypotrack::study {
@@ -103,6 +104,16 @@ Study load_study(const std::filesystem::path& file,
 
 /// Returns the study as a study file without variants. load_study() reads the same study back.
 std::string to_yaml(const Study& study);
+
+/// Formats a node as YAML on one line: `{type: pso, particles: 32}`. It parses to the same node.
+std::string to_flow(const ConfigNode& node);
+
+/// Formats a text as a YAML scalar on one line, quoted if it would not stay a text otherwise.
+std::string yaml_scalar(std::string_view text);
+
+/// Returns whether a name of a scene, case or variant consists of letters, digits, '_' and '-', as
+/// file names require.
+bool is_word(std::string_view text);
 
 }  // namespace internal
 }  // namespace hypotrack::study

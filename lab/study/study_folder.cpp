@@ -14,7 +14,6 @@
 #include "base/text_file.hpp"
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/error.hpp"
-#include "lab/result_folder.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

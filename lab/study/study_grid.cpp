@@ -16,7 +16,7 @@
 #include "config/yaml.hpp"
 #include "hypotrack/api/text.hpp"
 #include "lab/run_numbers.hpp"
-#include "lab/study/study_text.hpp"
+#include "lab/study/study_file.hpp"
 
 namespace hypotrack::study::internal {
 namespace {

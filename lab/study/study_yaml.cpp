@@ -1,15 +1,37 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "config/yaml.hpp"
 #include "lab/study/study_file.hpp"
-#include "lab/study/study_text.hpp"
 
 namespace hypotrack::study::internal {
 namespace {
+
+std::string on_one_line(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+std::string joined_items(const ConfigNode& list) {
+  std::string text;
+  for (std::size_t i = 0; i < list.size(); ++i) text += (i == 0 ? "" : ", ") + to_flow(list.at(i));
+  return text;
+}
+
+std::string joined_entries(const ConfigNode& map) {
+  std::string text;
+  for (const std::string& key : map.keys()) {
+    if (!text.empty()) text += ", ";
+    text += (is_word(key) ? key : yaml_scalar(key)) + ": " + to_flow(map.get(key));
+  }
+  return text;
+}
 
 std::string key_of(const std::string& key) { return is_word(key) ? key : yaml_scalar(key); }
 
@@ -59,6 +81,22 @@ std::string plot_text(const Plot& plot) {
 }
 
 }  // namespace
+
+std::string to_flow(const ConfigNode& node) {
+  if (node.is_list()) return "[" + joined_items(node) + "]";
+  if (node.is_map()) return "{" + joined_entries(node) + "}";
+  return on_one_line(node.to_yaml());
+}
+
+std::string yaml_scalar(std::string_view text) {
+  return on_one_line(detail::write_yaml(*detail::make_scalar(std::string(text), false)));
+}
+
+bool is_word(std::string_view text) {
+  return !text.empty() && text.front() != '-' &&
+         std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
+}
 
 std::string to_yaml(const Study& study) {
   std::string text =

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "lab/report/plot_data.hpp"
-#include "lab/report/run_series.hpp"
+#include "lab/report/report_data.hpp"
 #include "lab/report/study_data.hpp"
 #include "lab/report/table_data.hpp"
 #include "lab/study/results.hpp"

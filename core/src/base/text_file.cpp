@@ -119,4 +119,13 @@ void write_whole(const std::filesystem::path& file, std::string_view text) {
   refuse(file, error.value());
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw OutputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
+                                  folder.string(),
+                                  error ? error.message() : "there is a file of that name"));
+}
+
 }  // namespace hypotrack::internal

@@ -17,5 +17,8 @@ void expect_writable(const std::filesystem::path& file, std::string_view option 
 /// into a device or pipe directly, and into the file that a link names. Throws OutputError.
 void write_whole(const std::filesystem::path& file, std::string_view text);
 
+/// Makes a folder for results, with those above it, unless it is there. Throws OutputError.
+void make_folder(const std::filesystem::path& folder);
+
 }  // namespace internal
 }  // namespace hypotrack

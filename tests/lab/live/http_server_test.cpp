@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-#include "lab/live/request_head.hpp"
+#include "lab/live/connection.hpp"
 #include "lab/live/request_queue.hpp"
 
 namespace hypotrack {

@@ -13,7 +13,7 @@
 #include "lab/report/packed.hpp"
 #include "lab/report/page.hpp"
 #include "lab/report/replay.hpp"
-#include "lab/report/run_series.hpp"
+#include "lab/report/report_data.hpp"
 #include "study_fixture.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"

@@ -4,7 +4,6 @@
 
 #include "hypotrack/api/error.hpp"
 #include "lab/study/study_folder.hpp"
-#include "lab/study/tables.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {
