@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common.hpp"
+#include "hypotrack/api/frame.hpp"
 
 // numpy arrays as matrices and pictures, and back.
 
@@ -76,6 +77,11 @@ Eigen::MatrixXd matrix_of(const Numbers& array, Eigen::Index rows, Eigen::Index 
                           const char* what);
 /// Returns points (3xN) of an array (N, 3). Throws Error, naming `what`, on other shapes.
 Eigen::Matrix3Xd matrix_of_points(const Numbers& array, const char* what);
+
+/// Returns a view of a colour picture, or of a View. Throws DataError, naming `what`.
+View view_of(const py::handle& object, const std::string& what);
+/// Returns views of a sequence of colour pictures or Views; None or an empty one: no usable frame.
+std::vector<View> views_of(const py::handle& objects);
 
 /// Throws Error unless a blur is a number of pixels, 0 or more.
 void check_blur(double blur);

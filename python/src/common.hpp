@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "hypotrack/api/config_value.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/stop.hpp"
 
@@ -135,6 +136,13 @@ void end_without_gil(T& owner) {
     owner.reset();
   }
 }
+
+/// Returns the value of nested dicts, lists, tuples, texts, numbers, bools, paths, numpy arrays and
+/// None. Throws ConfigError, naming the document and the key path, on anything else.
+ConfigValue value_of(const py::handle& object, const std::string& document);
+
+/// Returns a value as YAML in one line, for overrides.
+std::string line_of(const ConfigNode& node);
 
 // The parts of the module, each in a file of its name.
 void add_errors(py::module_& module);

@@ -1,8 +1,8 @@
-#include "document.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <pybind11/numpy.h>
+
+#include "common.hpp"
 
 namespace hypotrack::python {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <pybind11/stl.h>
 
-#include "frames.hpp"
+#include "arrays.hpp"
 
 namespace hypotrack::python {
 namespace {

@@ -1,9 +1,9 @@
-#include "frames.hpp"
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include <memory>
+
+#include "arrays.hpp"
 
 namespace hypotrack::python {
 namespace {

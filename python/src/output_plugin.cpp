@@ -3,7 +3,7 @@
 
 #include "hypotrack/plugin/output.hpp"
 #include "plugins.hpp"
-#include "solution.hpp"
+#include "tracker.hpp"
 
 namespace hypotrack::python {
 namespace {

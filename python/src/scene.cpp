@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "arrays.hpp"
-#include "document.hpp"
+#include "common.hpp"
 #include "hypotrack/api/pose.hpp"
 
 namespace hypotrack::python {

@@ -6,9 +6,9 @@
 
 #include <map>
 
-#include "document.hpp"
+#include "arrays.hpp"
+#include "common.hpp"
 #include "frame_cost.hpp"
-#include "frames.hpp"
 #include "plugins.hpp"
 #include "source.hpp"
 #include "tracker.hpp"

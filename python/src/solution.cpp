@@ -1,4 +1,4 @@
-#include "solution.hpp"
+#include "hypotrack/api/solution.hpp"
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "arrays.hpp"
-#include "hypotrack/api/solution.hpp"
 #include "hypotrack/api/text.hpp"
+#include "tracker.hpp"
 
 namespace hypotrack::python {
 namespace {

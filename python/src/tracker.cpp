@@ -4,7 +4,7 @@
 
 #include <climits>
 
-#include "frames.hpp"
+#include "arrays.hpp"
 
 namespace hypotrack::python {
 

@@ -8,10 +8,17 @@
 #include <vector>
 
 #include "common.hpp"
+#include "hypotrack/api/scene.hpp"
 #include "hypotrack/api/tracker.hpp"
-#include "solution.hpp"
 
 namespace hypotrack::python {
+
+/// A solution with the scene that it is of, and what was told since the one before.
+struct NamedSolution {
+  Solution solution;
+  std::shared_ptr<Scene> scene;
+  std::vector<std::string> notes = {};
+};
 
 /// A tracker that Python owns.
 class PythonTracker {
