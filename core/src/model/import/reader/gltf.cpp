@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "model/import/reader/gltf_meshes.hpp"
-#include "model/import/reader/gltf_steps.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {

@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "model/import/reader/gltf_steps.hpp"
+#include "model/import/reader/gltf.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "hypotrack/api/text.hpp"
-#include "model/import/reader/gltf_steps.hpp"
+#include "model/import/reader/gltf.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {

@@ -3,7 +3,7 @@
 #include <set>
 #include <string_view>
 
-#include "model/import/reader/gltf_steps.hpp"
+#include "model/import/reader/gltf.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
