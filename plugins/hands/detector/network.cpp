@@ -9,7 +9,6 @@
 #include "hypotrack/api/stop.hpp"
 #include "network_file.hpp"
 #include "network_plan.hpp"
-#include "omp_threads.hpp"
 
 namespace hypotrack::hands {
 

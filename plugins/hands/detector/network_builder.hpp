@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "network_file.hpp"
-#include "network_words.hpp"
 
 namespace hypotrack::hands {
 

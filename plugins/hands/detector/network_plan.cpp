@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "dnnl_primitives.hpp"
-#include "omp_threads.hpp"
 
 namespace hypotrack::hands {
 namespace {
