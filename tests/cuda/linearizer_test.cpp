@@ -185,6 +185,39 @@ TEST_F(DeviceLinearizer, LinearizesManyPointsAsIfEachWereAlone) {
   }
 }
 
+/// Work that comes again is launched as a graph, of arguments that must still hold.
+TEST_F(DeviceLinearizer, RepeatsWorkOfChangingBatchesAndFrames) {
+  constexpr int kRounds = 4;  // the second of a batch makes its graph
+  const Scene scene = test::hand_scene();
+  const Eigen::VectorXd steps = steps_of(scene);
+  const auto make_gpu = [&] {
+    return make_cost(scene, terms_with_slopes(scene), {.backend = Backend::cuda},
+                     {.least_squares = true});
+  };
+  const auto kept = make_gpu();
+  const Eigen::MatrixXd states = test::scored_states(scene);
+  for (const int size : {96, 96, 128, 96}) {
+    Observation frame = test::colored(test::rectified_pair(scene, size));
+    frame.start = states.col(0);
+    kept->prepare(frame);
+    for (int round = 0; round < kRounds; ++round)
+      for (const Eigen::Index count : {1, 3, 8, 2}) {
+        SCOPED_TRACE(testing::Message() << size << " " << round << " " << count);
+        const auto fresh = make_gpu();
+        fresh->prepare(frame);
+        const Eigen::MatrixXd batch = states.middleCols(round, count);
+        Eigen::VectorXd found(count), expected(count);
+        kept->evaluate(batch, found);
+        fresh->evaluate(batch, expected);
+        EXPECT_EQ(found, expected);
+        const NormalEquations again = linearize(*kept, scene, batch.col(0), steps);
+        const NormalEquations once = linearize(*fresh, scene, batch.col(0), steps);
+        EXPECT_EQ(again.a, once.a);
+        EXPECT_EQ(again.g, once.g);
+      }
+  }
+}
+
 /// The shared memory that a kernel may use is the same for all trackers of the process.
 TEST_F(DeviceLinearizer, LinearizesScenesOfAllSizesAtTheSameTime) {
   constexpr int kRounds = 300;

@@ -20,6 +20,10 @@ using Work = std::vector<std::function<void()>>;
 struct CUstream_st {
   bool captures = false;
   Work captured;
+  cudaStream_t joins = nullptr;  ///< the stream whose capture has its work, while that captures
+};
+struct CUevent_st {
+  cudaStream_t recorded_in = nullptr;
 };
 struct CUgraph_st {
   Work work;
@@ -139,12 +143,18 @@ Memory& memory() {
   return *all;
 }
 
+/// Returns the stream that captures what is enqueued in a stream: itself, or one that it joins.
+cudaStream_t capturing(cudaStream_t stream) {
+  return stream && stream->joins && stream->joins->captures ? stream->joins : stream;
+}
+
 /// Does it, or keeps it for the graph that a stream captures. An error of it is for the next call,
 /// as on a GPU, which has not done it yet.
 cudaError_t enqueue(cudaStream_t stream, std::function<void()> work) {
   static Fault lost("lost");
   if (lost.is_due()) of_kernel = cudaErrorLaunchFailure;
   if (of_kernel != cudaSuccess) return result(of_kernel);
+  stream = capturing(stream);
   if (stream != nullptr && stream->captures) {
     stream->captured.push_back(std::move(work));
   } else {
@@ -290,14 +300,25 @@ cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
   const bool captures = stream != nullptr && stream->captures;
   return result(captures ? cudaErrorStreamCaptureUnsupported : cudaSuccess);
 }
-// Work is done when it is enqueued, so events have nothing to wait for.
+// Work is done when it is enqueued, so events have nothing to wait for: they only carry captures
+// from stream to stream.
 cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned) {
-  *event = nullptr;
+  *event = new CUevent_st;
   return result(cudaSuccess);
 }
-cudaError_t cudaEventDestroy(cudaEvent_t) { return result(cudaSuccess); }
-cudaError_t cudaEventRecord(cudaEvent_t, cudaStream_t) { return result(cudaSuccess); }
-cudaError_t cudaStreamWaitEvent(cudaStream_t, cudaEvent_t) { return result(cudaSuccess); }
+cudaError_t cudaEventDestroy(cudaEvent_t event) {
+  delete event;
+  return result(cudaSuccess);
+}
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream) {
+  event->recorded_in = capturing(stream);
+  return result(cudaSuccess);
+}
+cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event) {
+  if (cudaStream_t from = event->recorded_in; from && from != stream && from->captures)
+    stream->joins = from;
+  return result(cudaSuccess);
+}
 
 cudaError_t cudaLaunchHostFunc(cudaStream_t stream, cudaHostFn_t function, void* data) {
   return enqueue(stream, [=] { function(data); });

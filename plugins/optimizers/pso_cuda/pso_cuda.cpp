@@ -6,8 +6,8 @@
 
 #include "hypotrack/api/stop.hpp"
 #include "hypotrack/gpu/device_cost.hpp"
+#include "hypotrack/gpu/work_graph.cuh"
 #include "hypotrack/plugin/search.hpp"
-#include "search_graph.hpp"
 #include "swarm.hpp"
 #include "swarm_memory.hpp"
 
@@ -127,7 +127,7 @@ std::int64_t run_directly(Search& search, const Deadline* deadline) {
 
 struct PsoCuda::OnDevice {
   cuda::SwarmMemory memory;
-  cuda::SearchGraph graph;
+  cuda::WorkGraph graph;
   std::optional<CapturedFor> captured;
 
   /// Enqueues the search as one kernel. Returns false if that is impossible.

@@ -40,7 +40,7 @@ SwarmSearch SwarmMemory::search(const SwarmLayout& swarm, std::int64_t generatio
   // Free slots have all bits set, before and after every search (bands.cuh).
   if (slots_.reserve(static_cast<std::size_t>(3 * kSlotStride * swarm.particles))) {
     check(cudaMemset(slots_.data(), 0xFF, slots_.size() * sizeof(double)), "emptying memory");
-    check(cudaDeviceSynchronize(), "emptying memory");
+    check(cudaStreamSynchronize(nullptr), "emptying memory");
   }
   const Limbs limbs(region);
   const std::vector<int> groups = groups_or_dimensions(region);

@@ -84,7 +84,10 @@ class PixelObjective : public DeviceObjective {
       height = std::max(height, tiles_[i].height);
     }
     const bool rectified = observation.pair;
-    if (width != width_ || height != height_ || rectified != rectified_) reserved_ = 0;
+    if (width != width_ || height != height_ || rectified != rectified_) {
+      reserved_ = 0;
+      ++revision_;
+    }
     width_ = width;
     height_ = height;
     rectified_ = rectified;
@@ -107,12 +110,12 @@ class PixelObjective : public DeviceObjective {
     // Blocks wait for one another, so all of them must run at once; twice as many would.
     drawn_bands_ = static_cast<int>(
         std::clamp<std::int64_t>(2 * limits.multiprocessors / count, 1, kMostBands));
-    memory_.reserve(plan, count, drawn_bands_, Term::kSums);
+    // A plan depends on nothing else that changes, so that a batch of an earlier size has its plan.
+    if (memory_.reserve(plan, count, drawn_bands_, Term::kSums)) ++revision_;
     allow_shared(kernel_for<Term>(plan));
     plan_ = plan;
     searching_blocks_ = kUnknown;
     reserved_ = count;
-    ++revision_;
   }
 
   void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {

@@ -12,6 +12,7 @@
 #include "cost/cuda/device_scene.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
+#include "cost/cuda/repeated_work.hpp"
 #include "cost/cuda/tile_resampler.hpp"
 #include "cost/cuda/transfer.hpp"
 #include "cost/term_residuals.hpp"
@@ -113,10 +114,20 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
     if (states.cols() == 0) return;
     frame_.device().use();
     use_prior(nullptr);
-    reserve(states.cols());
-    batch_.upload(states, stream());
-    frame_.enqueue(batch_.layout());
-    batch_.download(0, states.cols(), stream());
+    const int sets = frame_.cost_sets(states.cols());
+    batch_.take(states, sets);
+    const auto arguments = [&] {
+      return RepeatedWork::Arguments{static_cast<std::uint64_t>(states.cols()), revision(),
+                                     batch_.revision()};
+    };
+    if (!evaluations_.launch(arguments(), stream())) {
+      reserve(states.cols());
+      evaluations_.enqueue(arguments(), stream(), [&] {
+        batch_.upload(stream());
+        frame_.enqueue_apart(batch_.layout());
+        batch_.download(0, states.cols() * sets, stream());
+      });
+    }
     wait_for(stream(), "evaluating hypotheses");
     batch_.read(costs, frame_.terms());
   }
@@ -134,6 +145,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   std::unique_ptr<TileResampler> resampler_;  // for the first frame's cameras; they never change
   std::optional<BandEnds> bands_;
   HostBatch batch_;
+  RepeatedWork evaluations_;
   bool sum_of_squares_;
   ResidualMemory residual_memory_;
   DeviceLinearizer linearizer_{*this, frame_};

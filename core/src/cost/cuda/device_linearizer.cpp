@@ -41,15 +41,19 @@ Eigen::MatrixXd unpack_rows(const double* sums, int columns) {
 std::vector<NormalEquations> DeviceLinearizer::linearize(std::span<const Neighbourhood> points) {
   std::vector<NormalEquations> out;
   frame_.device().use();
-  frame_.reserve(static_cast<std::int64_t>(points.size()));
-  constexpr std::size_t kMostDifferences = 8;  // points whose neighbours' residuals are kept
-  std::size_t most = size(frame_.drawn_at_once());
-  if (frame_.draws_differences()) most = std::min(most, kMostDifferences);
+  const std::size_t most = points.size() > 1 ? most_together(points.size()) : 1;
   while (out.size() < points.size()) {
     const auto part = points.subspan(out.size(), std::min(most, points.size() - out.size()));
     linearize_together(part, out);
   }
   return out;
+}
+
+std::size_t DeviceLinearizer::most_together(std::size_t points) {
+  constexpr std::size_t kMostDifferences = 8;  // points whose neighbours' residuals are kept
+  frame_.reserve(static_cast<std::int64_t>(points));
+  const std::size_t drawn = size(frame_.drawn_at_once());
+  return frame_.draws_differences() ? std::min(drawn, kMostDifferences) : drawn;
 }
 
 void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
@@ -66,18 +70,21 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
   if (columns == 0) return;
   const std::span<NormalEquations> out = std::span(all).subspan(before);
   const auto count = static_cast<int>(points.size());
-  const bool differs = frame_.difference_residual_count() > 0;
-  reserve(count, columns);
-  upload(points, moved, columns);
-  // What does not need the drawing runs beside it.
-  side_.fork(frame_.stream());
-  const bool draws_differences = differs && frame_.draws_differences();
-  if (differs && !draws_differences) enqueue_differences(count, columns);
-  if (frame_.sloped_terms() > 0) enqueue_rows(count, columns);
-  if (draws_differences) enqueue_differences(count, columns);
-  side_.join(frame_.stream());
+  take(points, moved, columns);
+  const auto arguments = [&] {
+    const auto shape = static_cast<std::uint64_t>(std::int64_t{count} << 32 | columns);
+    return RepeatedWork::Arguments{shape, frame_.revision(), batch_.revision(), revision_};
+  };
+  if (!work_.launch(arguments(), frame_.stream())) {
+    reserve(count, columns);
+    work_.enqueue(arguments(), frame_.stream(), [&] { enqueue(count, columns); });
+  }
   wait_for(frame_.stream(), "linearising");
-  if (draws_differences) batch_.read(costs_, frame_.terms());
+  const bool differs = frame_.difference_residual_count() > 0;
+  if (differs && frame_.draws_differences()) {
+    costs_.resize(count * (columns + 2));
+    batch_.read(costs_, frame_.terms());
+  }
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto d = static_cast<Eigen::Index>(moved[k].size());
     if (frame_.sloped_terms() > 0) {
@@ -97,6 +104,20 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
   }
 }
 
+void DeviceLinearizer::enqueue(int points, int columns) {
+  batch_.upload(frame_.stream());
+  to_device(numbers_, numbers_staging_, size(std::int64_t{points} * (columns + 1)),
+            frame_.stream());
+  const bool differs = frame_.difference_residual_count() > 0;
+  const bool draws_differences = differs && frame_.draws_differences();
+  // What does not need the drawing runs beside it.
+  differences_.fork(frame_.stream());
+  if (differs && !draws_differences) enqueue_differences(points, columns);
+  if (frame_.sloped_terms() > 0) enqueue_rows(points, columns);
+  if (draws_differences) enqueue_differences(points, columns);
+  differences_.join(frame_.stream());
+}
+
 Eigen::VectorXd DeviceLinearizer::per_step(int k, int columns) const {
   Eigen::VectorXd out =
       Eigen::Map<const Eigen::VectorXf>(numbers_staging_.data() + k * columns, columns)
@@ -110,30 +131,33 @@ Eigen::VectorXd DeviceLinearizer::per_step(int k, int columns) const {
 void DeviceLinearizer::reserve(std::int64_t points, int columns) {
   const std::int64_t rows = frame_.difference_residual_count();
   const std::int64_t drawn_each = frame_.draws_differences() ? columns + 2 : 1;
-  numbers_.reserve(size(points * (columns + 1)));
-  numbers_staging_.reserve(size(points * (columns + 1)));
+  bool moves = false;
   frame_.reserve(points * drawn_each, [&](std::int64_t hypotheses) {
     const std::int64_t count = std::max<std::int64_t>(hypotheses / drawn_each, 1);
     const std::int64_t pixels = count * frame_.pixels();
     if (frame_.sloped_terms() > 0) {
       const int sets = frame_.observation().pair ? 1 : frame_.view_count();
-      records_.reserve(size(count * record_floats(frame_.scene(), sets, columns)));
-      slopes_.reserve(size(pixels * frame_.sloped_terms()));
-      owners_.reserve(size(pixels));
-      row_parts_.reserve(size(count * row_numbers(columns) * row_blocks(frame_.pixels(), count)));
+      moves |= records_.reserve(size(count * record_floats(frame_.scene(), sets, columns)));
+      moves |= slopes_.reserve(size(pixels * frame_.sloped_terms()));
+      moves |= owners_.reserve(size(pixels));
+      moves |= row_parts_.reserve(
+          size(count * row_numbers(columns) * row_blocks(frame_.pixels(), count)));
     }
-    residuals_.reserve(size(count * rows * (columns + 1)));
-    gram_parts_.reserve(size(count * gram_numbers(columns) * gram_blocks(rows)));
+    moves |= residuals_.reserve(size(count * rows * (columns + 1)));
+    moves |= gram_parts_.reserve(size(count * gram_numbers(columns) * gram_blocks(rows)));
   });
-  row_sums_.reserve(size(points * row_numbers(columns)));
+  moves |= row_sums_.reserve(size(points * row_numbers(columns)));
   row_sums_staging_.reserve(size(points * row_numbers(columns)));
-  gram_sums_.reserve(size(points * gram_numbers(columns)));
+  moves |= gram_sums_.reserve(size(points * gram_numbers(columns)));
   gram_sums_staging_.reserve(size(points * gram_numbers(columns)));
+  if (moves) ++revision_;
 }
 
-void DeviceLinearizer::upload(std::span<const Neighbourhood> points,
-                              const std::vector<std::vector<Eigen::Index>>& moved, int columns) {
+void DeviceLinearizer::take(std::span<const Neighbourhood> points,
+                            const std::vector<std::vector<Eigen::Index>>& moved, int columns) {
   const auto count = static_cast<Eigen::Index>(points.size()), side = Eigen::Index{columns} + 1;
+  if (numbers_.reserve(size(count * side))) ++revision_;
+  numbers_staging_.reserve(size(count * side));
   Eigen::MatrixXd states(points[0].points.rows(), count * (side + 1));
   for (Eigen::Index k = 0; k < count; ++k) {
     const Neighbourhood& at = points[static_cast<std::size_t>(k)];
@@ -148,8 +172,7 @@ void DeviceLinearizer::upload(std::span<const Neighbourhood> points,
     states.col(k) = at.points.col(0);
     numbers_staging_.data()[count * columns + k] = static_cast<float>(at.blur);
   }
-  batch_.upload(cost_.normalized(states, states.cols()), frame_.stream());
-  to_device(numbers_, numbers_staging_, size(count * side), frame_.stream());
+  batch_.take(cost_.normalized(states, states.cols()));
 }
 
 void DeviceLinearizer::enqueue_rows(int points, int columns) {
@@ -173,18 +196,21 @@ void DeviceLinearizer::enqueue_rows(int points, int columns) {
       .owners = owners_.data(),
       .parts = row_parts_.data(),
       .sums = row_sums_.data()};
-  enqueue_posing(frame_.scene(), frame_.device().limits(), job, side_.stream());
+  posing_.fork(stream);
+  enqueue_posing(frame_.scene(), frame_.device().limits(), job, posing_.stream());
   const DrawnBatch drawn = frame_.draw(centres);
   job.depth = drawn.depth;
-  frame_.enqueue_slopes(drawn, slopes_.data());
-  side_.join(stream);
+  frame_.fork_slopes(drawn, slopes_.data());
+  posing_.join(stream);
+  enqueue_owners(frame_.scene(), frame_.device().limits(), job, stream);
+  frame_.join_slopes();
   enqueue_pixel_rows(frame_.scene(), frame_.device().limits(), job, stream);
   to_host(row_sums_staging_, row_sums_, 0, size(std::int64_t{points} * row_numbers(columns)),
           stream);
 }
 
 void DeviceLinearizer::enqueue_differences(int points, int columns) {
-  const Stream stream = frame_.draws_differences() ? frame_.stream() : side_.stream();
+  const Stream stream = frame_.draws_differences() ? frame_.stream() : differences_.stream();
   const std::int64_t rows = frame_.difference_residual_count();
   BatchLayout states = batch_.layout();
   states.points += std::int64_t{points} * frame_.scene().dimension;
@@ -202,9 +228,7 @@ void DeviceLinearizer::enqueue_differences(int points, int columns) {
                stream);
   to_host(gram_sums_staging_, gram_sums_, 0, size(std::int64_t{points} * gram_numbers(columns)),
           stream);
-  if (!frame_.draws_differences()) return;
-  costs_.resize(points * (columns + 2));
-  batch_.download(0, costs_.size(), stream);
+  if (frame_.draws_differences()) batch_.download(0, Eigen::Index{points} * (columns + 2), stream);
 }
 
 }  // namespace hypotrack::cuda::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "cost/cost.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
+#include "cost/cuda/repeated_work.hpp"
 #include "cost/cuda/side_stream.hpp"
 #include "hypotrack/plugin/optimizer.hpp"
 
@@ -29,10 +31,14 @@ class DeviceLinearizer {
  private:
   /// Linearises points that are drawn together.
   void linearize_together(std::span<const Neighbourhood> points, std::vector<NormalEquations>& out);
+  /// Returns how many points can be linearised together.
+  std::size_t most_together(std::size_t points);
   void reserve(std::int64_t points, int columns);
-  /// Uploads the drawn states of all points, then the states of each.
-  void upload(std::span<const Neighbourhood> points,
-              const std::vector<std::vector<Eigen::Index>>& moved, int columns);
+  /// Takes for upload the drawn states of all points, then the states of each.
+  void take(std::span<const Neighbourhood> points,
+            const std::vector<std::vector<Eigen::Index>>& moved, int columns);
+  /// Enqueues all work for points that were taken.
+  void enqueue(int points, int columns);
   void enqueue_rows(int points, int columns);
   void enqueue_differences(int points, int columns);
   /// Returns the reciprocal steps of point `k`; 0 where a neighbour's cost is infinite.
@@ -41,8 +47,10 @@ class DeviceLinearizer {
   Cost& cost_;
   FrameOnDevice& frame_;
   HostBatch batch_;
+  RepeatedWork work_;
+  std::uint64_t revision_ = 0;  // changes whenever memory below moves
   Eigen::VectorXd costs_;  // of the batch, by the terms without slopes; if these draw
-  SideStream side_;
+  SideStream posing_, differences_;
   DeviceBuffer<float> numbers_;  // per point the reciprocal steps; then the blurs of all points
   PinnedBuffer<float> numbers_staging_;
   DeviceBuffer<PixelSlope> slopes_;

@@ -13,7 +13,11 @@ namespace hypotrack::cuda::internal {
 FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                              const EvaluateSettings& settings)
     : device_(settings.device), scene_(scene), terms_(terms) {
-  for (const ObjectiveTerm& term : terms_) objectives_.push_back(term.objective->on_device());
+  for (const ObjectiveTerm& term : terms_) {
+    objectives_.push_back(term.objective->on_device());
+    sides_.push_back(std::make_unique<SideStream>());
+    counting_terms_ += term.weight != 0 ? 1 : 0;
+  }
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     drawing_terms_ += draws(i) ? 1 : 0;
     sloped_terms_ += has_slopes(i) ? 1 : 0;
@@ -95,6 +99,42 @@ void FrameOnDevice::enqueue(BatchLayout batch) {
   clear_costs_without_terms(batch);
 }
 
+int FrameOnDevice::cost_sets(std::int64_t count) const {
+  constexpr std::int64_t kMost = 64;  // more occupy a GPU by themselves
+  const bool apart = count <= kMost && (!draws_for_terms_ || count <= drawer_.most_at_once());
+  if (!apart || counting_terms_ < 2) return 1;
+  return counting_terms_ + (draws_for_terms_ ? 1 : 0);
+}
+
+void FrameOnDevice::enqueue_apart(BatchLayout batch) {
+  if (cost_sets(batch.count) == 1) return enqueue(batch);
+  batch.add = false;
+  double* const costs = batch.costs;
+  DrawnBatch drawn{.count = static_cast<int>(batch.count)};
+  const auto enqueue_terms = [&](bool that_draw) {
+    std::int64_t set = 0;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].weight == 0) continue;
+      batch.costs = costs + batch.count * set++;
+      if (draws(i) != that_draw) continue;
+      batch.weight = terms_[i].weight;
+      sides_[i]->fork(stream());
+      if (draws_for_terms_)
+        objectives_[i]->enqueue_drawn(scene_.layout(), batch, drawn, sides_[i]->stream());
+      else
+        objectives_[i]->enqueue(scene_.layout(), batch, sides_[i]->stream());
+    }
+  };
+  enqueue_terms(false);
+  if (draws_for_terms_) {
+    batch.costs = costs + batch.count * counting_terms_;  // drawing sets them to 0
+    drawn = drawer_.enqueue(scene_.layout(), batch, 0, batch.count, stream());
+  }
+  enqueue_terms(true);
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (terms_[i].weight != 0) sides_[i]->join(stream());
+}
+
 bool FrameOnDevice::enqueue_search(BatchLayout batch, const SwarmSearch& search) {
   std::size_t count = 0, only = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -124,14 +164,20 @@ DrawnBatch FrameOnDevice::draw(const BatchLayout& batch) {
   return drawer_.enqueue(scene_.layout(), batch, 0, batch.count, stream());
 }
 
-void FrameOnDevice::enqueue_slopes(const DrawnBatch& drawn, PixelSlope* slopes) {
+void FrameOnDevice::fork_slopes(const DrawnBatch& drawn, PixelSlope* slopes) {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     if (!has_slopes(i)) continue;
     const auto factor = static_cast<float>(std::sqrt(terms_[i].weight));
+    sides_[i]->fork(stream());
     objectives_[i]->enqueue_slopes(scene_.layout(), drawn,
-                                   {slopes, sloped_terms_ * pixels(), factor}, stream());
+                                   {slopes, sloped_terms_ * pixels(), factor}, sides_[i]->stream());
     slopes += pixels();
   }
+}
+
+void FrameOnDevice::join_slopes() {
+  for (std::size_t i = 0; i < terms_.size(); ++i)
+    if (has_slopes(i)) sides_[i]->join(stream());
 }
 
 void FrameOnDevice::enqueue_differences(BatchLayout batch, float* residuals, Stream stream) {

@@ -9,6 +9,7 @@
 #include "cost/cost.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/side_stream.hpp"
 #include "cost/cuda/tile_drawer.hpp"
 #include "cost/cuda/tile_upload.hpp"
 #include "hypotrack/gpu/runtime.cuh"
@@ -50,6 +51,12 @@ class FrameOnDevice {
   /// Enqueues all terms for a batch; sets `batch.weight` and `batch.add`. Several terms that need
   /// rendering share one drawing of each hypothesis.
   void enqueue(BatchLayout batch);
+  /// Returns how many costs enqueue_apart() gives each of so many hypotheses.
+  int cost_sets(std::int64_t count) const;
+  /// Enqueues all terms for a batch as enqueue() does. Terms of few hypotheses run at the same
+  /// time, each with costs of its own: those of one term for all hypotheses, then those of the
+  /// next; where hypotheses are drawn for several terms, there is a last set of 0.
+  void enqueue_apart(BatchLayout batch);
   /// Enqueues a whole search, which only a single term can run (DeviceCost::enqueue_search()). Sets
   /// `batch.weight`.
   bool enqueue_search(BatchLayout batch, const SwarmSearch& search);
@@ -60,9 +67,10 @@ class FrameOnDevice {
   void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
   /// Draws a batch of at most drawn_at_once() hypotheses. Sets their costs to 0.
   DrawnBatch draw(const BatchLayout& batch);
-  /// Enqueues the slopes of the terms that have them: sloped_terms() x pixels() per drawn
-  /// hypothesis.
-  void enqueue_slopes(const DrawnBatch& drawn, PixelSlope* slopes);
+  /// Enqueues beside the stream the slopes of the terms that have them: sloped_terms() x pixels()
+  /// per drawn hypothesis. What is enqueued after join_slopes() waits for them.
+  void fork_slopes(const DrawnBatch& drawn, PixelSlope* slopes);
+  void join_slopes();
   /// Enqueues the residuals of the terms without slopes: difference_residual_count() per
   /// hypothesis, each times the root of its weight. Sets the costs to those of these terms. If one
   /// of them needs rendering (draws_differences()), `stream` must be that of this frame.
@@ -108,7 +116,8 @@ class FrameOnDevice {
   DeviceScene scene_;
   std::vector<ObjectiveTerm> terms_;
   std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
-  int drawing_terms_ = 0, sloped_terms_ = 0;
+  std::vector<std::unique_ptr<SideStream>> sides_;            // likewise
+  int drawing_terms_ = 0, sloped_terms_ = 0, counting_terms_ = 0;
   bool draws_for_terms_ = false;  // because several need it, or one does not draw by itself
   TileUpload upload_;
   TileDrawer drawer_;

@@ -8,17 +8,20 @@
 
 namespace hypotrack::cuda::internal {
 
-void HostBatch::upload(const Eigen::MatrixXd& states, Stream stream) {
+void HostBatch::take(const Eigen::MatrixXd& states, int cost_sets) {
   count_ = states.cols();
-  const auto count = static_cast<std::size_t>(count_);
-  const auto size = static_cast<std::size_t>(states.size());
-  points_.reserve(size);
-  points_staging_.reserve(size);
-  costs_.reserve(count);
+  cost_sets_ = cost_sets;
+  const auto count = static_cast<std::size_t>(count_ * cost_sets);
+  numbers_ = static_cast<std::size_t>(states.size());
+  bool moved = points_.reserve(numbers_);
+  points_staging_.reserve(numbers_);
+  moved |= costs_.reserve(count);
   costs_staging_.reserve(count);
-  std::copy_n(states.data(), size, points_staging_.data());
-  to_device(points_, points_staging_, size, stream);
+  if (moved) ++revision_;
+  std::copy_n(states.data(), numbers_, points_staging_.data());
 }
+
+void HostBatch::upload(Stream stream) { to_device(points_, points_staging_, numbers_, stream); }
 
 BatchLayout HostBatch::layout() const {
   return {points_.data(), count_, costs_.data(), 0, nullptr, false};
@@ -33,6 +36,8 @@ void HostBatch::read(Eigen::Ref<Eigen::VectorXd> costs,
                      const std::vector<ObjectiveTerm>& terms) const {
   for (Eigen::Index i = 0; i < count_; ++i) {
     costs[i] = costs_staging_.data()[i];
+    for (Eigen::Index set = 1; set < cost_sets_; ++set)
+      costs[i] += costs_staging_.data()[set * count_ + i];
     if (!(costs[i] >= std::numeric_limits<double>::lowest()))
       refuse_cost(terms.front(), i, "(or one after it) returned NaN or -infinity");
   }

@@ -418,14 +418,19 @@ void enqueue_posing(const SceneLayout& scene, const DeviceLimits& limits, const 
          bytes, stream, overlaps_launches(limits), scene, job, at);
 }
 
+void enqueue_owners(const SceneLayout& scene, const DeviceLimits& limits, const PixelRowsJob& job,
+                    Stream stream) {
+  const std::int64_t threads = std::int64_t{scene.triangle_count} * job.view_count * kWarp;
+  launch(&find_owners,
+         dim3(static_cast<unsigned>((threads + kTriangleThreads - 1) / kTriangleThreads),
+              static_cast<unsigned>(job.points)),
+         dim3(kTriangleThreads), 0, stream, overlaps_launches(limits), scene, job);
+}
+
 void enqueue_pixel_rows(const SceneLayout& scene, const DeviceLimits& limits,
                         const PixelRowsJob& job, Stream stream) {
   const bool overlap = overlaps_launches(limits);
   const auto points = static_cast<unsigned>(job.points);
-  const std::int64_t threads = std::int64_t{scene.triangle_count} * job.view_count * kWarp;
-  launch(&find_owners,
-         dim3(static_cast<unsigned>((threads + kTriangleThreads - 1) / kTriangleThreads), points),
-         dim3(kTriangleThreads), 0, stream, overlap, scene, job);
   const auto blocks = static_cast<unsigned>(row_blocks(job.pixels, job.points));
   launch(&add_rows, dim3(blocks, static_cast<unsigned>(row_squares(job.columns)), points),
          dim3(kRowThreads), 0, stream, overlap, scene, job);

@@ -45,9 +45,13 @@ struct PixelRowsJob {
   double* sums;              ///< row_numbers(D): products of the columns, the last one is r
 };
 
-/// Enqueues the posing of all states into `records`, before enqueue_pixel_rows(). It reads only the
+/// Enqueues the posing of all states into `records`, before enqueue_owners(). It reads only the
 /// states.
 void enqueue_posing(const SceneLayout& scene, const DeviceLimits& limits, const PixelRowsJob& job,
+                    Stream stream);
+/// Enqueues the search for each pixel's triangle, before enqueue_pixel_rows(). It reads the records
+/// and the depth.
+void enqueue_owners(const SceneLayout& scene, const DeviceLimits& limits, const PixelRowsJob& job,
                     Stream stream);
 /// Enqueues the sums, which are the same in every run.
 void enqueue_pixel_rows(const SceneLayout& scene, const DeviceLimits& limits,

@@ -75,13 +75,17 @@ void TileDrawer::prepare(const DeviceObservation& observation) {
   height_ = height;
 }
 
+std::int64_t TileDrawer::most_at_once() const {
+  const auto bytes = std::max<std::int64_t>(static_cast<std::int64_t>(sizeof(float)) * pixels_, 1);
+  return std::max<std::int64_t>(kMostBytes / bytes, 1);
+}
+
 void TileDrawer::reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t count) {
   if (count == reserved_) return;
   reserved_ = 0;
   limits_ = limits;
-  const auto bytes = std::max<std::int64_t>(static_cast<std::int64_t>(sizeof(float)) * pixels_, 1);
-  at_once_ = std::clamp<std::int64_t>(kMostBytes / bytes, 1, std::max<std::int64_t>(count, 1));
-  depth_.reserve(static_cast<std::size_t>(at_once_ * pixels_));
+  at_once_ = std::min(most_at_once(), std::max<std::int64_t>(count, 1));
+  bool moved = depth_.reserve(static_cast<std::size_t>(at_once_ * pixels_));
   plan_ = plan_blocks({.scene = scene,
                        .limits = limits,
                        .count = at_once_,
@@ -89,14 +93,14 @@ void TileDrawer::reserve(const SceneLayout& scene, const DeviceLimits& limits, s
                        .tile_height = height_,
                        .tiles_at_once = pair_ ? 2 : 1,
                        .sums = 1});
-  memory_.reserve(plan_, at_once_, 1, 1);
+  moved |= memory_.reserve(plan_, at_once_, 1, 1);
   if (pair_) {
     allow_shared_memory(kernel_for<true>(plan_), limits);
   } else {
     allow_shared_memory(kernel_for<false>(plan_), limits);
   }
+  if (moved) ++revision_;
   reserved_ = count;
-  ++revision_;
 }
 
 DrawnBatch TileDrawer::enqueue(const SceneLayout& scene, const BatchLayout& batch,

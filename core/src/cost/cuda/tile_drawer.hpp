@@ -19,6 +19,8 @@ class TileDrawer {
   /// DeviceError if there is not enough.
   void reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t count);
 
+  /// Returns how many hypotheses of the prepared frame are drawn at once, at most.
+  std::int64_t most_at_once() const;
   /// Returns how many hypotheses fit into the memory at once.
   std::int64_t at_once() const { return at_once_; }
   /// Returns the number of pixels of all views.
