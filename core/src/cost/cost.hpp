@@ -103,6 +103,9 @@ class Cost {
   /// every model's quaternion and applies to that of `rotations_from`. This cost owns the result.
   virtual cuda::DeviceCost* device(const Eigen::VectorXd* rotations_from = nullptr);
 
+  /// Returns true if searches leave most cores idle, as a GPU draws and scores.
+  virtual bool is_on_gpu() const { return false; }
+
   /// Describes the backend: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.
   virtual std::string backend() const = 0;
 

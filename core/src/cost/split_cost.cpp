@@ -99,6 +99,7 @@ class SplitCost final : public Cost, public StateResiduals {
   StateResiduals* least_squares() override {
     return drawn_->least_squares() && posed_->least_squares() ? this : nullptr;
   }
+  bool is_on_gpu() const override { return drawn_->is_on_gpu(); }
   std::string backend() const override { return backend_; }
 
   // StateResiduals

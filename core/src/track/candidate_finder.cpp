@@ -1,5 +1,7 @@
 #include "track/candidate_finder.hpp"
 
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -62,6 +64,7 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
 
 Candidate CandidateFinder::verified(const Frame& frame, Found found) {
   const ProfiledPart part("measure");
+  const ReadyThreads::Awake awake(ready_threads());
   const std::size_t models = scene_.items().size();
   Candidate out{std::move(found),
                 ModelProbabilities(models, std::numeric_limits<double>::quiet_NaN()),
@@ -171,6 +174,14 @@ Candidate CandidateFinder::searched(const Frame& frame, const Eigen::MatrixXd& s
   Found found = search_.from(prior, left, reach, seed);
   found.evaluations += compared;
   return verified(frame, std::move(found));
+}
+
+ReadyThreads* CandidateFinder::ready_threads() {
+  constexpr int kOneIn = 4, kMost = 3;  // threads of the arena
+  const int count = std::min(kMost, oneapi::tbb::this_task_arena::max_concurrency() / kOneIn);
+  if (!settings_.judged || !search_.is_on_gpu() || count == 0) return nullptr;
+  if (!ready_) ready_ = std::make_unique<ReadyThreads>(count);
+  return ready_.get();
 }
 
 Candidate CandidateFinder::go_on(const Frame& frame, const Candidate& from, std::uint64_t seed) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 #include "track/verify/pose_verifier.hpp"
+#include "track/verify/ready_threads.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -146,6 +148,9 @@ class CandidateFinder {
   /// does, or did before.
   bool look_for_occluders(const Frame& frame, const Eigen::VectorXd& state,
                           const ModelFlags& models);
+  /// Returns threads that help to judge what a GPU found, whose search let all others fall asleep;
+  /// null: there are no cores for that.
+  ReadyThreads* ready_threads();
   /// Searches a frame from the cheapest of several starts.
   Candidate searched(const Frame& frame, const Eigen::MatrixXd& starts, const Budget& budget,
                      const std::optional<Reach>& reach, std::uint64_t seed);
@@ -192,6 +197,7 @@ class CandidateFinder {
   Budget budget_;
   FrameSearch search_;
   PoseVerifier verifier_;
+  std::unique_ptr<ReadyThreads> ready_;
   Occlusion occlusion_;
   double usual_probability_ = 0;  ///< of frames searched lately
   Recovery recovery_;

@@ -108,6 +108,7 @@ class FrameSearch {
   Cost& cost() const { return *cost_; }
   /// Searches on the CPU after an error of the device, which is being handled, or throws it again.
   void leave_device(const DeviceError& error) { cost_.leave_device(error); }
+  bool is_on_gpu() const { return cost_->is_on_gpu(); }
   /// Returns why the device was left; empty: it was not.
   const std::string& device_error() const { return cost_.device_error(); }
   const PhotometricMatch& photometric() const { return photometric_; }

@@ -43,6 +43,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
     use_prior(rotations_from);
     return this;
   }
+  bool is_on_gpu() const override { return true; }
   std::string backend() const override {
     return backend_text(frame_.device().name(), frame_.device().index());
   }

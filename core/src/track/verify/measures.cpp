@@ -1,5 +1,3 @@
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include "hypotrack/plugin/numbers.hpp"
 #include "track/verify/pose_verifier.hpp"
+#include "track/verify/ready_threads.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -302,7 +301,8 @@ Probability probability(const SurfaceSamples& samples, const ForegroundColors& c
 
 }  // namespace
 
-Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors) {
+Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors,
+                 const Appearance& appearance) {
   Measures out;
   out.values[Measures::kVisible] = samples.visible;
   out.covered = samples.covered;
@@ -319,20 +319,22 @@ Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors) 
   Texture surface, beside;
   Edges left, right;
   Probability on, off;
-  tbb::parallel_invoke([&] { surface = texture(inside); }, [&] { beside = texture(ring); },
-                       [&] { left = edges(samples.views[0]); },
-                       [&] { right = edges(samples.views[1]); },
-                       [&] { on = probability(samples, colors, &SampledView::inside); },
-                       [&] { off = probability(samples, colors, &SampledView::ring); });
-  out.values[Measures::kCorrelation] = plain_correlation(inside);
+  std::array<double, 2> apart{};
+  run_together({[&] { surface = texture(inside); }, [&] { beside = texture(ring); },
+                [&] { out.likeness = appearance.likeness(samples); },
+                [&] { on = probability(samples, colors, &SampledView::inside); },
+                [&] { off = probability(samples, colors, &SampledView::ring); },
+                [&] { left = edges(samples.views[0]); }, [&] { right = edges(samples.views[1]); },
+                [&] { apart[0] = separation(samples.views[0]); },
+                [&] { apart[1] = separation(samples.views[1]); },
+                [&] { out.values[Measures::kCorrelation] = plain_correlation(inside); },
+                [&] { out.values[Measures::kDifference] = median_difference(inside); },
+                [&] { out.values[Measures::kRingDifference] = median_difference(ring); }});
   out.values[Measures::kTexture] = surface.correlation;
   out.values[Measures::kAgreement] = surface.agreement;
   out.values[Measures::kContrast] = surface.contrast;
-  out.values[Measures::kDifference] = median_difference(inside);
   out.values[Measures::kRingTexture] = beside.correlation;
-  out.values[Measures::kRingDifference] = median_difference(ring);
-  out.values[Measures::kSeparation] =
-      (separation(samples.views[0]) + separation(samples.views[1])) / 2;
+  out.values[Measures::kSeparation] = (apart[0] + apart[1]) / 2;
   out.values[Measures::kEdges] = std::min(left.share, right.share);
   out.values[Measures::kEdgeRatio] = std::min(left.ratio, right.ratio);
   out.values[Measures::kInside] = on.mean;

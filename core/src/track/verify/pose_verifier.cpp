@@ -32,10 +32,9 @@ ModelVerifier::ModelVerifier(const Scene& scene, std::size_t model,
 Measures ModelVerifier::measured(const Frame& frame, const Eigen::VectorXd& state,
                                  const ColorMap& colors) {
   samples_ = sampler_.sample(frame, state, colors);
-  Measures out = measure(samples_, colors_);
+  Measures out = measure(samples_, colors_, appearance_);
   out.experienced = experienced();
   if (usual_) out.usual = *usual_;
-  out.likeness = appearance_.likeness(samples_);
   out.usual_likeness = usual_likeness_;
   out.tracked = tracked_;
   out.model = model_;
@@ -76,7 +75,7 @@ void ModelVerifier::learn(const Measures& measures) {
   colors_.learn(samples_);
   appearance_.learn(samples_);
   if (!usual_ || !knew_colors) {
-    usual_ = measure(samples_, colors_).values;
+    usual_ = measure(samples_, colors_, appearance_).values;
     return;
   }
   for (std::size_t i = 0; i < usual_->size(); ++i)

@@ -21,9 +21,10 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Measures how well samples of a model support its pose: `values`, `covered`, `points` and
-/// `known`. `colors` gives the foreground probabilities, 0.5 before anything was learned.
-Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors);
+/// Measures how well samples of a model support its pose: `values`, `likeness`, `covered`, `points`
+/// and `known`. `colors` gives the foreground probabilities, 0.5 before anything was learned.
+Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors,
+                 const Appearance& appearance);
 
 /// Measures how well the pictures support poses of one model, and learns what is usual.
 class ModelVerifier {

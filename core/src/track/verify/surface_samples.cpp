@@ -1,7 +1,5 @@
 #include "track/verify/surface_samples.hpp"
 
-#include <oneapi/tbb/parallel_invoke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -12,6 +10,7 @@
 #include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
 #include "tile/tiles.hpp"
+#include "track/verify/ready_threads.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -114,8 +113,13 @@ struct SurfaceSampler::Impl {
 
   /// Draws into the views' grids the model alone and the whole scene.
   void draw(const Observation& header, const Eigen::VectorXd& state, const Eigen::VectorXd& own);
-  SampledView sampled(const Lookup& lookup, std::size_t view) const;
-  void pair(const Lookup& other, const Observation& header, SurfaceSamples& out) const;
+  /// Returns where a view shows the model, and the ring around it, before any colour is known.
+  SampledView silhouette(std::size_t view) const;
+  // These take a band of rows, as several threads do.
+  void look_up(const Lookup& lookup, std::size_t view, const cv::Range& rows,
+               SampledView& out) const;
+  void pair(const Lookup& other, const StereoMap& map, const cv::Mat1f& depth,
+            const cv::Range& rows, SurfaceSamples& out) const;
   std::vector<SurfaceSamples::Point> points(const SampledView& view, const TileCamera& grid,
                                             const Eigen::VectorXd& part) const;
 
@@ -161,7 +165,7 @@ void SurfaceSampler::Impl::draw(const Observation& header, const Eigen::VectorXd
   for (std::size_t i = 0; i < 2; ++i) all[i] = inverse_depths(everything[i]);
 }
 
-SampledView SurfaceSampler::Impl::sampled(const Lookup& lookup, std::size_t view) const {
+SampledView SurfaceSampler::Impl::silhouette(std::size_t view) const {
   SampledView out{cv::Mat3f(grid_size, grid_size, cv::Vec3f(0, 0, 0)),
                   cv::Mat1b(grid_size, grid_size, uchar{0}),
                   {}};
@@ -172,31 +176,29 @@ SampledView SurfaceSampler::Impl::sampled(const Lookup& lookup, std::size_t view
         out.inside(y, x) = 255;
   const cv::Mat ball = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kRing + 1, 2 * kRing + 1});
   cv::dilate(out.inside, out.ring, ball);
-  for (int y = 0; y < grid_size; ++y)
-    for (int x = 0; x < grid_size; ++x) {
-      if (!out.ring(y, x)) continue;
-      const bool seen = lookup(static_cast<float>(x), static_cast<float>(y), out.color(y, x));
-      if (!seen) out.inside(y, x) = 0;
-      if (!seen || nearest(y, x) > 0) out.ring(y, x) = 0;
-    }
-  if (behind[view].empty()) return out;
-  out.inside.setTo(0, behind[view]);
-  out.ring.setTo(0, behind[view]);
   return out;
 }
 
-void SurfaceSampler::Impl::pair(const Lookup& other, const Observation& header,
-                                SurfaceSamples& out) const {
-  const StereoMap map = stereo_map(header, 0, 1);
+void SurfaceSampler::Impl::look_up(const Lookup& lookup, std::size_t view, const cv::Range& rows,
+                                   SampledView& out) const {
+  const bool is_partly_hidden = !behind[view].empty();
+  for (int y = rows.start; y < rows.end; ++y)
+    for (int x = 0; x < grid_size; ++x) {
+      if (!out.ring(y, x)) continue;
+      bool seen = lookup(static_cast<float>(x), static_cast<float>(y), out.color(y, x));
+      seen = seen && !(is_partly_hidden && behind[view](y, x));
+      if (!seen) out.inside(y, x) = 0;
+      if (!seen || all[view](y, x) > 0) out.ring(y, x) = 0;
+    }
+}
+
+void SurfaceSampler::Impl::pair(const Lookup& other, const StereoMap& map, const cv::Mat1f& depth,
+                                const cv::Range& rows, SurfaceSamples& out) const {
   const auto grid_point = [&](float at) {
     return std::clamp(static_cast<int>(pixel::round(at)), 0, grid_size - 1);
   };
   const SampledView& first = out.views[0];
-  cv::Mat1f depth = own[0].clone();
-  extend(depth, first.inside, first.ring);
-  out.other = cv::Mat3f(grid_size, grid_size, cv::Vec3f(0, 0, 0));
-  out.paired = cv::Mat1b(grid_size, grid_size, uchar{0});
-  for (int y = 0; y < grid_size; ++y)
+  for (int y = rows.start; y < rows.end; ++y)
     for (int x = 0; x < grid_size; ++x) {
       const float w = depth(y, x);
       if (!(first.inside(y, x) || first.ring(y, x)) || !(w > 0)) continue;
@@ -255,15 +257,24 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
   const Lookup second{self.tiles.resamplers()[1].lens(), intrinsics(plan.header.views[1].camera),
                       frame.views[1].color, colors};
   const TileCamera& grid = plan.header.views[0].camera;
-  tbb::parallel_invoke(
-      [&] {
-        out.views[0] = self.sampled(first, 0);
-        self.pair(second, plan.header, out);
-      },
-      [&] { out.views[1] = self.sampled(second, 1); });
-  out.points = self.points(out.views[0], grid, own);
-  const double depth = (grid.camera_from_world * Eigen::Vector3d(own.head<3>())).z();
-  out.points_per_metre = grid.fx / depth;
+  const int size = self.grid_size;
+  const cv::Range top(0, size / 2), bottom(size / 2, size);
+  SampledView& left = out.views[0];
+  SampledView& right = out.views[1];
+  run_together({[&] { left = self.silhouette(0); }, [&] { right = self.silhouette(1); }});
+  run_together({[&] { self.look_up(first, 0, top, left); },
+                [&] { self.look_up(first, 0, bottom, left); },
+                [&] { self.look_up(second, 1, top, right); },
+                [&] { self.look_up(second, 1, bottom, right); }});
+  const StereoMap map = stereo_map(plan.header, 0, 1);
+  cv::Mat1f depth = self.own[0].clone();
+  extend(depth, left.inside, left.ring);
+  out.other = cv::Mat3f(size, size, cv::Vec3f(0, 0, 0));
+  out.paired = cv::Mat1b(size, size, uchar{0});
+  run_together({[&] { self.pair(second, map, depth, top, out); },
+                [&] { self.pair(second, map, depth, bottom, out); },
+                [&] { out.points = self.points(left, grid, own); }});
+  out.points_per_metre = grid.fx / (grid.camera_from_world * Eigen::Vector3d(own.head<3>())).z();
   const int drawn = cv::countNonZero(self.own[0]);
   const int seen = cv::countNonZero(out.views[0].inside);
   out.covered = drawn > 0 ? 1 - static_cast<double>(seen) / drawn : 1;
