@@ -1,12 +1,27 @@
 #include "track/faults/cell_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <opencv2/core/hal/intrin.hpp>
 
 #include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::internal {
+namespace {
+
+constexpr std::size_t kTogether = cv::v_uint16x8::nlanes;
+
+/// Returns the two halves of some cells as numbers.
+std::array<cv::v_float32x4, 2> numbers(const std::uint16_t* cells) {
+  cv::v_uint32x4 low, high;
+  cv::v_expand(cv::v_load(cells), low, high);
+  return {cv::v_cvt_f32(cv::v_reinterpret_as_s32(low)),
+          cv::v_cvt_f32(cv::v_reinterpret_as_s32(high))};
+}
+
+}  // namespace
 
 bool is_clipped(std::uint16_t cell) {
   constexpr int kClipped = 250 * SmallPicture::kLevel;
@@ -21,21 +36,37 @@ bool is_still(const SmallPicture& a, const SmallPicture& b) {
 }
 
 std::size_t different_cells(const SmallPicture& a, const SmallPicture& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.cells.size(); ++i) count += a.cells[i] != b.cells[i];
-  return count;
+  const std::size_t size = a.cells.size();
+  std::size_t i = 0, same = 0;
+  for (; i + kTogether <= size; i += kTogether) {
+    const cv::v_uint16x8 equal = cv::v_load(&a.cells[i]) == cv::v_load(&b.cells[i]);
+    same += std::size_t{cv::v_reduce_sum(equal & cv::v_setall_u16(1))};
+  }
+  for (; i < size; ++i) same += a.cells[i] == b.cells[i];
+  return size - same;
 }
 
 std::vector<std::size_t> moved_cells(const SmallPicture& before, const SmallPicture& now) {
   constexpr int kMotion = 6 * SmallPicture::kLevel;  // well above noise
   const float gain = gain_between(before, now);
   std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < now.cells.size(); ++i) {
+  const auto look_at = [&](std::size_t i) {
     const std::uint16_t from = before.cells[i], to = now.cells[i];
     if (!is_clipped(std::max(from, to)) &&
         std::abs(static_cast<float>(to) - gain * static_cast<float>(from)) > kMotion)
       out.push_back(i);
+  };
+  const cv::v_float32x4 gains = cv::v_setall_f32(gain), least = cv::v_setall_f32(kMotion);
+  std::size_t i = 0;
+  for (; i + kTogether <= now.cells.size(); i += kTogether) {
+    const auto from = numbers(&before.cells[i]), to = numbers(&now.cells[i]);
+    const auto moves = [&](std::size_t half) {
+      return cv::v_abs(to[half] - gains * from[half]) > least;
+    };
+    if (!cv::v_check_any(moves(0) | moves(1))) continue;  // as almost everywhere
+    for (std::size_t k = 0; k < kTogether; ++k) look_at(i + k);
   }
+  for (; i < now.cells.size(); ++i) look_at(i);
   return out;
 }
 

@@ -119,9 +119,12 @@ void FrozenViews::count_repeats(const SmallPictures& now) {
     changed_ = true;
     // Frames that a recorder repeats at a higher rate begin anew each time.
     if (std::exchange(own.repeated, 0) > 0) own.noisy = 0;
-    const auto clear =
-        std::ranges::count_if(now[v]->cells, [](std::uint16_t cell) { return !is_clipped(cell); });
-    const bool noisy = 2 * different > static_cast<std::size_t>(clear);
+    const auto clear = [&] {
+      const auto count = std::ranges::count_if(
+          now[v]->cells, [](std::uint16_t cell) { return !is_clipped(cell); });
+      return static_cast<std::size_t>(count);
+    };
+    const bool noisy = 2 * different > now[v]->cells.size() || 2 * different > clear();
     own.noisy = noisy ? own.noisy + 1 : 0;
   }
 }

@@ -107,15 +107,15 @@ void ViewOrder::prepare(const SmallPicture& size) {
   }
 }
 
-ViewOrder::Votes ViewOrder::count(const SmallPicture& first, const SmallPicture& second) {
+bool ViewOrder::is_exchanged(const SmallPicture& first, const SmallPicture& second) {
   constexpr unsigned kTexture = 8 * kPatchWidth * kPatchHeight;  // least difference to beside
   constexpr unsigned kNoise = 2 * kPatchWidth * kPatchHeight;
   constexpr int kBeside = 2, kNotFar = 3;  // cells
   constexpr std::size_t kEnough = 240;     // places with texture
-  Votes votes;
-  if (first.width != second.width || first.height != second.height) return votes;
+  constexpr std::size_t kFewest = 20, kTimes = 4;
+  if (first.width != second.width || first.height != second.height) return false;
   if (!prepared_) prepare(first);
-  if (first.width != width_ || first.height != height_) return votes;
+  if (first.width != width_ || first.height != height_) return false;
   const cv::Mat1b a = normalized(first), b = normalized(second);
   std::vector<const Place*> textured;
   for (const Place& place : places_) {
@@ -124,7 +124,10 @@ ViewOrder::Votes ViewOrder::count(const SmallPicture& first, const SmallPicture&
     if (difference({cell, width_}, {cell + beside, width_}) >= kTexture) textured.push_back(&place);
   }
   const std::size_t every = 1 + textured.size() / kEnough;
+  std::size_t for_right = 0, for_exchanged = 0;  // places that match one order clearly better
   for (std::size_t i = 0; i < textured.size(); i += every) {
+    const std::size_t left = (textured.size() - i + every - 1) / every;
+    if (for_exchanged + left < std::max(kFewest, kTimes * for_right)) return false;
     const Place& place = *textured[i];
     const Patch patch(a.ptr(place.y) + place.x, width_);
     unsigned right = std::numeric_limits<int>::max(), exchanged = right;
@@ -142,16 +145,10 @@ ViewOrder::Votes ViewOrder::count(const SmallPicture& first, const SmallPicture&
     }
     // The better match must be clear. Far places are on the wrong side if the calibration is a
     // little off.
-    votes.right += 2 * (right + kNoise) < exchanged + kNoise;
-    votes.exchanged += exchanged_step >= kNotFar && 2 * (exchanged + kNoise) < right + kNoise;
+    for_right += 2 * (right + kNoise) < exchanged + kNoise;
+    for_exchanged += exchanged_step >= kNotFar && 2 * (exchanged + kNoise) < right + kNoise;
   }
-  return votes;
-}
-
-bool ViewOrder::is_exchanged(const SmallPicture& first, const SmallPicture& second) {
-  constexpr int kFewest = 20, kTimes = 4;
-  const Votes votes = count(first, second);
-  return votes.exchanged >= kFewest && votes.exchanged >= kTimes * votes.right;
+  return for_exchanged >= std::max(kFewest, kTimes * for_right);
 }
 
 }  // namespace hypotrack::internal

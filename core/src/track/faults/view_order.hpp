@@ -18,16 +18,8 @@ class ViewOrder {
  public:
   ViewOrder(const Camera& first, const Camera& second) : cameras_{first, second} {}
 
-  /// Places that match one order clearly better than the other.
-  struct Votes {
-    int right = 0;
-    int exchanged = 0;
-  };
-  /// Counts votes. There are none where cameras of different sizes or directions cannot be
-  /// exchanged.
-  Votes count(const SmallPicture& first, const SmallPicture& second);
-
-  /// Returns whether the pictures are surely exchanged.
+  /// Returns whether the pictures are surely exchanged. Those of cameras of different sizes or
+  /// directions cannot be.
   bool is_exchanged(const SmallPicture& first, const SmallPicture& second);
 
  private:
