@@ -1,7 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
+#include <limits>
 
 #include "base/exported.hpp"
 #include "hypotrack/api/frame.hpp"
@@ -21,13 +21,13 @@ class FrameClock {
     constexpr double kIntervals = 10, kSeconds = 0.5;  // cameras drop some frames now and then
     const double longest = std::max(kIntervals * interval_, kSeconds);
     // A single wrong time moves no later ones.
-    if (added_ != 0 && last_ && frame.time > *last_ && frame.time - *last_ <= longest) added_ = 0;
+    if (added_ != 0 && frame.time > last_ && frame.time - last_ <= longest) added_ = 0;
     double time = frame.time + added_;
-    if (last_ && time <= *last_) {
-      time = *last_ + interval_;
+    if (time <= last_) {
+      time = last_ + interval_;
       added_ = time - frame.time;
       frame.fault = FrameFault::time_back;
-    } else if (last_ && !live_ && time - *last_ > longest) {
+    } else if (!live_ && time - last_ > longest) {
       frame.fault = FrameFault::time_gap;
     }
     frame.time = time;
@@ -37,8 +37,9 @@ class FrameClock {
  private:
   double interval_;
   bool live_;
-  std::optional<double> last_;  ///< time of the last frame, corrected
-  double added_ = 0;            ///< to the times of the source
+  /// Corrected time of the last frame; NaN, which no time is before or after: there was none.
+  double last_ = std::numeric_limits<double>::quiet_NaN();
+  double added_ = 0;  ///< to the times of the source
 };
 
 }  // namespace internal

@@ -49,7 +49,7 @@ class DeviceLinearizer {
   HostBatch batch_;
   RepeatedWork work_;
   std::uint64_t revision_ = 0;  // changes whenever memory below moves
-  Eigen::VectorXd costs_;  // of the batch, by the terms without slopes; if these draw
+  Eigen::VectorXd costs_;       // of the batch, by the terms without slopes; if these draw
   SideStream posing_, differences_;
   DeviceBuffer<float> numbers_;  // per point the reciprocal steps; then the blurs of all points
   PinnedBuffer<float> numbers_staging_;
