@@ -132,15 +132,23 @@ TEST_F(ModelTrackTest, IsConfirmedByFramesInWhichItIsRight) {
 
 TEST_F(ModelTrackTest, SearchesAllInTheFirstFourthAndSixteenthFrameOfALoss) {
   ModelTrack one = track();
-  const auto times = [&] {
+  const auto times = [&](bool is_detectable) {
     std::vector<int> out;
     for (int i = 1; i <= 20; ++i)
-      if (one.is_time_to_search_all()) out.push_back(i);
+      if (one.is_time_to_search_all(is_detectable)) out.push_back(i);
     return out;
   };
-  EXPECT_EQ(times(), (std::vector<int>{1, 4, 16}));
+  EXPECT_EQ(times(false), (std::vector<int>{1, 4, 16}));
   one.take(true, moved_by(0), {}, 0);
-  EXPECT_EQ(times(), (std::vector<int>{1, 4, 16}));
+  EXPECT_EQ(times(false), (std::vector<int>{1, 4, 16}));
+}
+
+TEST_F(ModelTrackTest, SearchesAllMoreSeldomForWhatADetectorHasNeverSeen) {
+  ModelTrack one = track(false);
+  std::vector<int> times;
+  for (int i = 1; i <= 70; ++i)
+    if (one.is_time_to_search_all(true)) times.push_back(i);
+  EXPECT_EQ(times, (std::vector<int>{1, 16, 64}));
 }
 
 TEST_F(ModelTrackTest, IsContradictedByTwoChecksInARow) {

@@ -202,8 +202,8 @@ Doubted track_doubted(int frames, Frames seen, std::vector<std::string> override
 
 TEST(LookedFor, WhatAStarterWouldDetectAndDoesNotSeeIsSearchedEverMoreSeldom) {
   const Doubted found =
-      track_doubted(15, {100, 100}, {"judge={type: network, confirmed_above: 0}"});
-  EXPECT_EQ(found.searches, 2) << "in the first frame and the fourth";
+      track_doubted(17, {100, 100}, {"judge={type: network, confirmed_above: 0}"});
+  EXPECT_EQ(found.searches, 2) << "in the first frame and the sixteenth";
   for (const Status status : found.statuses) EXPECT_EQ(status, Status::lost);
 }
 

@@ -111,8 +111,11 @@ bool ModelTrack::take_check(bool is_elsewhere) {
   return contradictions_ >= kMost;
 }
 
-bool ModelTrack::is_time_to_search_all() {
+bool ModelTrack::is_time_to_search_all(bool is_detectable) {
+  constexpr unsigned kSecond = 4;
   const unsigned count = ++searches_;
+  // What a detector has not seen at first has hardly come yet.
+  if (count == kSecond && is_detectable && is_unknown(phase_)) return false;
   return std::has_single_bit(count) && std::countr_zero(count) % 2 == 0;
 }
 

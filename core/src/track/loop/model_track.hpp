@@ -67,8 +67,9 @@ class ModelTrack {
   /// Returns whether other poses are searched although the pose looks right, as after a loss.
   bool needs_confirmation() const { return confirmations_ > 0; }
   /// Counts a frame of a search for the model. Returns whether it is the first one, the 4th, 16th,
-  /// 64th, ...: whole pictures are searched then, even if a detector would see the model.
-  bool is_time_to_search_all();
+  /// 64th, ...: whole pictures are searched then, even if a detector would see the model
+  /// (`is_detectable`). The 4th is not while such a model is unknown.
+  bool is_time_to_search_all(bool is_detectable);
 
   /// Returns the mean sigma of the model's landmarks; NaN without any.
   double mean_sigma(const Eigen::VectorXd& of_scene) const;

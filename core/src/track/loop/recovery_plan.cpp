@@ -71,7 +71,7 @@ void RecoveryPlan::seek_lost(LoopState& loop, const Frame& frame, const Candidat
     if (!is_sought) poor_[m] = std::max(std::min(poor_[m], kPatience), 1U) - 1;
     if (!is_sought) continue;
     if (!is_poor) poor_[m] = 0;
-    request.thorough[m] = track.is_time_to_search_all();
+    request.thorough[m] = track.is_time_to_search_all(loop.finder.detects(m));
     rests_[m] = is_poor && rests(m);
     request.sought[m] = !rests_[m];
     request.lost = request.lost || request.sought[m];
