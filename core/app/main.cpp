@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/plugin/build_tag.hpp"
 #include "hypotrack/plugin/plugin.hpp"
-#include "lab_commands.hpp"
+#include "lab_commands/lab_commands.hpp"
 #include "messages.hpp"
 #include "plugin/crash_report.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "camera_source.hpp"
+#include "cameras/camera_source.hpp"
 
 namespace hypotrack::app {
 

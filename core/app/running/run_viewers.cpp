@@ -1,11 +1,11 @@
-#include "run_viewers.hpp"
+#include "running/run_viewers.hpp"
 
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "hypotrack/api/error.hpp"
-#include "lab_commands.hpp"
+#include "lab_commands/lab_commands.hpp"
 #include "messages.hpp"
 #include "viewing/preview.hpp"
 #include "window/window.hpp"

@@ -16,7 +16,7 @@
 #include "doctor/probe.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
-#include "lab_commands.hpp"
+#include "lab_commands/lab_commands.hpp"
 #include "scene/simd_kernels.hpp"
 
 namespace hypotrack::app {

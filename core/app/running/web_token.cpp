@@ -1,4 +1,4 @@
-#include "web_token.hpp"
+#include "running/web_token.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

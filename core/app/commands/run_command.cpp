@@ -16,8 +16,8 @@
 #include "messages.hpp"
 #include "progress.hpp"
 #include "run/run_scene.hpp"
-#include "run_several.hpp"
-#include "run_viewers.hpp"
+#include "running/run_several.hpp"
+#include "running/run_viewers.hpp"
 #include "viewing/live_run.hpp"
 
 namespace hypotrack::app {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "hypotrack/api/error.hpp"
-#include "lab_commands.hpp"
+#include "lab_commands/lab_commands.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/installation.hpp"
-#include "lab_commands.hpp"
+#include "lab_commands/lab_commands.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "board_check.hpp"
+#include "boards/board_check.hpp"
 
 #include <fmt/format.h>
 

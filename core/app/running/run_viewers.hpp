@@ -4,8 +4,8 @@
 
 #include "command_line.hpp"
 #include "lab/live/live_view.hpp"
+#include "running/web_token.hpp"
 #include "viewing/live_run.hpp"
-#include "web_token.hpp"
 
 namespace hypotrack::app {
 

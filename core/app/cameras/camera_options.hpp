@@ -1,6 +1,6 @@
 #pragma once
 
-#include "camera_source.hpp"
+#include "cameras/camera_source.hpp"
 #include "command_line.hpp"
 #include "hypotrack/api/media.hpp"
 

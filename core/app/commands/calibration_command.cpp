@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "calibration_output.hpp"
-#include "camera_options.hpp"
+#include "boards/calibration_output.hpp"
+#include "cameras/camera_options.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
 #include "messages.hpp"

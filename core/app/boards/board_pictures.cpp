@@ -1,4 +1,4 @@
-#include "board_pictures.hpp"
+#include "boards/board_pictures.hpp"
 
 #include <fmt/format.h>
 

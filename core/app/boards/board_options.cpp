@@ -1,4 +1,4 @@
-#include "board_options.hpp"
+#include "boards/board_options.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "camera_source.hpp"
+#include "cameras/camera_source.hpp"
 
 #include <fmt/format.h>
 

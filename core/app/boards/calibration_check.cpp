@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "board_check.hpp"
-#include "board_pictures.hpp"
+#include "boards/board_check.hpp"
+#include "boards/board_pictures.hpp"
+#include "boards/calibration_output.hpp"
 #include "calibrate/check_reach.hpp"
-#include "calibration_output.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 #include "messages.hpp"

@@ -1,4 +1,4 @@
-#include "camera_options.hpp"
+#include "cameras/camera_options.hpp"
 
 namespace hypotrack::app {
 

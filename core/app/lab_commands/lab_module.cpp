@@ -1,5 +1,5 @@
 // The module that holds the lab's commands.
-#include "lab_commands.hpp"
+#include "lab_commands/lab_commands.hpp"
 
 extern "C" [[gnu::visibility("default")]] const hypotrack::app::LabCommands&
 hypotrack_lab_commands() {

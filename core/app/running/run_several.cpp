@@ -1,4 +1,4 @@
-#include "run_several.hpp"
+#include "running/run_several.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

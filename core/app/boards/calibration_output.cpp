@@ -1,4 +1,4 @@
-#include "calibration_output.hpp"
+#include "boards/calibration_output.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

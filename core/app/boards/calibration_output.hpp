@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "board_options.hpp"
+#include "boards/board_options.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "hypotrack/api/calibration.hpp"
 

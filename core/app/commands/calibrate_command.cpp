@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "base/text_file.hpp"
-#include "board_options.hpp"
-#include "board_pictures.hpp"
+#include "boards/board_options.hpp"
+#include "boards/board_pictures.hpp"
+#include "boards/calibration_output.hpp"
 #include "calibrate/board.hpp"
 #include "calibrate/coverage.hpp"
 #include "calibrate/stereo_calibration.hpp"
-#include "calibration_output.hpp"
-#include "camera_options.hpp"
+#include "cameras/camera_options.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/calibration.hpp"
 #include "hypotrack/api/error.hpp"

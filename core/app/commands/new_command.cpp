@@ -14,7 +14,7 @@
 
 #include "base/text_file.hpp"
 #include "calibrate/picture_pairs.hpp"
-#include "camera_options.hpp"
+#include "cameras/camera_options.hpp"
 #include "check_scene.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
