@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/corner_noise.hpp"
+#include "calibrate/board/corner_noise.hpp"
 #include "calibrate/stereo_calibration.hpp"
 #include "hypotrack/api/camera.hpp"
 

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "calibrate/wrong_board.hpp"
+#include "calibrate/board/wrong_board.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/core/affine.hpp>
 #include <vector>
 
-#include "calibrate/board_pair.hpp"
+#include "calibrate/board/board_pair.hpp"
 #include "hypotrack/api/camera.hpp"
 
 namespace hypotrack::calibrate {

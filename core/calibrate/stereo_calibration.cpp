@@ -7,8 +7,8 @@
 #include <opencv2/calib3d.hpp>
 #include <utility>
 
-#include "calibrate/corner_noise.hpp"
-#include "calibrate/faults.hpp"
+#include "calibrate/board/corner_noise.hpp"
+#include "calibrate/check/faults.hpp"
 #include "calibrate/solve_stereo.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/board_pair.hpp"
+#include "calibrate/board/board_pair.hpp"
 #include "calibrate/stereo_calibration.hpp"
 #include "hypotrack/api/camera.hpp"
 

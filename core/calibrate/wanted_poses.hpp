@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/coverage.hpp"
-#include "calibrate/rough_pose.hpp"
+#include "calibrate/board/rough_pose.hpp"
+#include "calibrate/check/coverage.hpp"
 
 namespace hypotrack::calibrate {
 

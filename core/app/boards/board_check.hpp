@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "calibrate/check_reach.hpp"
+#include "calibrate/board/wrong_board.hpp"
+#include "calibrate/check/check_reach.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "calibrate/stereo_calibration.hpp"
-#include "calibrate/wrong_board.hpp"
 
 namespace hypotrack::app {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 #include "command_line.hpp"
 
 namespace hypotrack::app {

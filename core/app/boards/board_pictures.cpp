@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <utility>
 
-#include "calibrate/wrong_board.hpp"
+#include "calibrate/board/wrong_board.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 #include "live_pairs/status_line.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "calibrate/stereo_calibration.hpp"
 

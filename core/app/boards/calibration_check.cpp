@@ -8,7 +8,7 @@
 #include "boards/board_check.hpp"
 #include "boards/board_pictures.hpp"
 #include "boards/calibration_output.hpp"
-#include "calibrate/check_reach.hpp"
+#include "calibrate/check/check_reach.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 #include "messages.hpp"

@@ -1,14 +1,14 @@
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "calibrate/charuco.hpp"
-#include "calibrate/chessboard.hpp"
-#include "calibrate/marker_layout.hpp"
-#include "calibrate/wrong_board.hpp"
+#include "calibrate/board/charuco.hpp"
+#include "calibrate/board/chessboard.hpp"
+#include "calibrate/board/marker_layout.hpp"
+#include "calibrate/board/wrong_board.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack::calibrate {

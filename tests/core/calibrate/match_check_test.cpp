@@ -1,4 +1,4 @@
-#include "calibrate/match_check.hpp"
+#include "calibrate/check/match_check.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "calibrate/charuco.hpp"
+#include "calibrate/board/charuco.hpp"
 #include "rendered_board.hpp"
 
 namespace hypotrack::calibrate {

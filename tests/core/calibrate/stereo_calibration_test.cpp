@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
-#include "calibrate/check_reach.hpp"
-#include "calibrate/coverage.hpp"
+#include "calibrate/check/check_reach.hpp"
+#include "calibrate/check/coverage.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "hypotrack/api/error.hpp"
 #include "stereo_calibration_fixture.hpp"

@@ -4,7 +4,7 @@
 #include <opencv2/core/types.hpp>
 #include <optional>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 
 namespace hypotrack::calibrate {
 

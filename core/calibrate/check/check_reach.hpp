@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/board.hpp"
-#include "calibrate/match_check.hpp"
+#include "calibrate/board/board.hpp"
+#include "calibrate/check/match_check.hpp"
 
 namespace hypotrack::calibrate {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 
 namespace hypotrack::calibrate {
 

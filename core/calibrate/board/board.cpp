@@ -1,4 +1,4 @@
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,9 +12,9 @@
 #include <optional>
 #include <utility>
 
-#include "calibrate/charuco.hpp"
-#include "calibrate/chessboard.hpp"
-#include "calibrate/corner_noise.hpp"
+#include "calibrate/board/charuco.hpp"
+#include "calibrate/board/chessboard.hpp"
+#include "calibrate/board/corner_noise.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack::calibrate {

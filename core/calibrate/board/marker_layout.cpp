@@ -1,4 +1,4 @@
-#include "calibrate/marker_layout.hpp"
+#include "calibrate/board/marker_layout.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "calibrate/charuco.hpp"
+#include "calibrate/board/charuco.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "calibrate/marker_corners.hpp"
-#include "calibrate/marker_layout.hpp"
+#include "calibrate/board/marker_corners.hpp"
+#include "calibrate/board/marker_layout.hpp"
 
 // From OpenCV 4.7 on, the markers are in the module objdetect.
 #define HYPOTRACK_NEW_MARKERS (CV_VERSION_MAJOR > 4 || CV_VERSION_MINOR >= 7)

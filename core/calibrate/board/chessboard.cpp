@@ -1,4 +1,4 @@
-#include "calibrate/chessboard.hpp"
+#include "calibrate/board/chessboard.hpp"
 
 #include <algorithm>
 #include <opencv2/calib3d.hpp>

@@ -1,4 +1,4 @@
-#include "calibrate/rough_pose.hpp"
+#include "calibrate/board/rough_pose.hpp"
 
 #include <algorithm>
 #include <cmath>

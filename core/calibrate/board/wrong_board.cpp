@@ -1,4 +1,4 @@
-#include "calibrate/wrong_board.hpp"
+#include "calibrate/board/wrong_board.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "calibrate/charuco.hpp"
-#include "calibrate/chessboard.hpp"
+#include "calibrate/board/charuco.hpp"
+#include "calibrate/board/chessboard.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

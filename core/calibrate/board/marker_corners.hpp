@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "calibrate/board.hpp"
-#include "calibrate/marker_layout.hpp"
+#include "calibrate/board/board.hpp"
+#include "calibrate/board/marker_layout.hpp"
 
 namespace hypotrack::calibrate {
 

@@ -1,4 +1,4 @@
-#include "calibrate/marker_corners.hpp"
+#include "calibrate/board/marker_corners.hpp"
 
 #include <algorithm>
 #include <array>

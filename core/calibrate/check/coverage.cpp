@@ -1,4 +1,4 @@
-#include "calibrate/coverage.hpp"
+#include "calibrate/check/coverage.hpp"
 
 #include <opencv2/imgproc.hpp>
 

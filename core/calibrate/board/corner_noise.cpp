@@ -1,4 +1,4 @@
-#include "calibrate/corner_noise.hpp"
+#include "calibrate/board/corner_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "calibrate/faults.hpp"
+#include "calibrate/check/faults.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 
 namespace hypotrack::calibrate {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "calibrate/coverage.hpp"
+#include "calibrate/check/coverage.hpp"
 #include "calibrate/stereo_calibration.hpp"
 
 namespace hypotrack::calibrate {

@@ -1,4 +1,4 @@
-#include "calibrate/board_pair.hpp"
+#include "calibrate/board/board_pair.hpp"
 
 #include <algorithm>
 #include <cmath>

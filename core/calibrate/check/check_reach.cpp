@@ -1,11 +1,11 @@
-#include "calibrate/check_reach.hpp"
+#include "calibrate/check/check_reach.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "calibrate/coverage.hpp"
+#include "calibrate/check/coverage.hpp"
 
 namespace hypotrack::calibrate {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "calibrate/faults.hpp"
+#include "calibrate/check/faults.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/numbers.hpp"
 

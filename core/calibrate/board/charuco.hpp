@@ -3,7 +3,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board/board.hpp"
 
 namespace hypotrack::calibrate {
 

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "calibrate/board_pair.hpp"
+#include "calibrate/board/board_pair.hpp"
 
 namespace hypotrack::calibrate {
 
