@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "base/text_file.hpp"
-#include "camera/field_of_view.hpp"
+#include "camera/lens/field_of_view.hpp"
 #include "hypotrack/api/error.hpp"
 #include "output/recording_writer.hpp"
 

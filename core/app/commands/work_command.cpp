@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "base/machine.hpp"
-#include "camera/orientation.hpp"
+#include "camera/pictures/orientation.hpp"
 #include "check_scene.hpp"
 #include "commands.hpp"
 #include "cost/cuda/device.hpp"

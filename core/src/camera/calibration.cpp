@@ -11,7 +11,7 @@
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
-#include "camera/orientation.hpp"
+#include "camera/pictures/orientation.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack {

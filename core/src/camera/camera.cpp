@@ -12,8 +12,8 @@
 #include <tuple>
 #include <utility>
 
-#include "camera/distort.hpp"
-#include "camera/distortion.hpp"
+#include "camera/lens/distort.hpp"
+#include "camera/lens/distortion.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack::internal {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "camera/distort.hpp"
-#include "camera/distortion.hpp"
-#include "camera/interval_number.hpp"
+#include "camera/lens/distort.hpp"
+#include "camera/lens/distortion.hpp"
+#include "camera/lens/interval_number.hpp"
 #include "scene/visible_share.hpp"
 
 namespace hypotrack::internal {

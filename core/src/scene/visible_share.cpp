@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "camera/distort.hpp"
-#include "camera/distortion.hpp"
+#include "camera/lens/distort.hpp"
+#include "camera/lens/distortion.hpp"
 #include "scene/point_block.hpp"
 
 namespace hypotrack::internal {

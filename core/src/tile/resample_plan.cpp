@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "camera/distortion.hpp"
+#include "camera/lens/distortion.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -4,7 +4,7 @@
 #include <opencv2/core/types.hpp>
 
 #include "base/exported.hpp"
-#include "camera/lens_map.hpp"
+#include "camera/lens/lens_map.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/plugin/observation.hpp"
 #include "tile/color_map.hpp"

@@ -7,7 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "camera/distortion.hpp"
+#include "camera/lens/distortion.hpp"
 #include "hypotrack/api/error.hpp"
 #include "test_cameras.hpp"
 

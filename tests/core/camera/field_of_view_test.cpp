@@ -1,4 +1,4 @@
-#include "camera/field_of_view.hpp"
+#include "camera/lens/field_of_view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "camera/orientation.hpp"
+#include "camera/pictures/orientation.hpp"
 #include "hypotrack/api/media.hpp"
 #include "test_paths.hpp"
 

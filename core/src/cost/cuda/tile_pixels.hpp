@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "camera/lens_map.hpp"
+#include "camera/lens/lens_map.hpp"
 #include "hypotrack/gpu/layout.hpp"
 #include "hypotrack/plugin/pixel.hpp"
 #include "tile/color_map.hpp"

@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
-#include "camera/orientation.hpp"
-#include "camera/picture_header.hpp"
+#include "camera/pictures/orientation.hpp"
+#include "camera/pictures/picture_header.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/api/media.hpp"

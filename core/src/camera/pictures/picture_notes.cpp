@@ -6,7 +6,7 @@
 #include <exception>
 #include <opencv2/core.hpp>
 
-#include "camera/orientation.hpp"
+#include "camera/pictures/orientation.hpp"
 #include "hypotrack/api/image_file.hpp"
 
 namespace hypotrack {

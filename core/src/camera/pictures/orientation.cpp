@@ -1,4 +1,4 @@
-#include "camera/orientation.hpp"
+#include "camera/pictures/orientation.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
-#include "camera/picture_container.hpp"
+#include "camera/pictures/picture_container.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,11 +1,11 @@
-#include "camera/field_of_view.hpp"
+#include "camera/lens/field_of_view.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
-#include "camera/distortion.hpp"
+#include "camera/lens/distortion.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/kept_results.hpp"
-#include "camera/orientation.hpp"
+#include "camera/pictures/orientation.hpp"
 
 namespace hypotrack {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <string_view>
 
-#include "camera/netpbm.hpp"
-#include "camera/orientation.hpp"
-#include "camera/picture_header.hpp"
+#include "camera/pictures/netpbm.hpp"
+#include "camera/pictures/orientation.hpp"
+#include "camera/pictures/picture_header.hpp"
 #include "hypotrack/api/media.hpp"
 
 namespace hypotrack::internal {

@@ -1,4 +1,4 @@
-#include "camera/picture_header.hpp"
+#include "camera/pictures/picture_header.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "camera/netpbm.hpp"
-#include "camera/picture_container.hpp"
+#include "camera/pictures/netpbm.hpp"
+#include "camera/pictures/picture_container.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <string_view>
 
-#include "camera/orientation.hpp"
-#include "camera/picture_container.hpp"
+#include "camera/pictures/orientation.hpp"
+#include "camera/pictures/picture_container.hpp"
 #include "hypotrack/api/image_file.hpp"
 
 namespace hypotrack {

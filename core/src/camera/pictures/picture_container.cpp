@@ -1,4 +1,4 @@
-#include "camera/picture_container.hpp"
+#include "camera/pictures/picture_container.hpp"
 
 namespace hypotrack::internal {
 namespace {

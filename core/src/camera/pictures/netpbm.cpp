@@ -1,4 +1,4 @@
-#include "camera/netpbm.hpp"
+#include "camera/pictures/netpbm.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
-#include "camera/distort.hpp"
+#include "camera/lens/distort.hpp"
 #include "hypotrack/plugin/pixel.hpp"
 
 /// Maps tile pixels to a camera's image: plain data and the one function that CPU and CUDA share,
