@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 #include "test_models.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "cost/difference_blocks.hpp"
+#include "cost/linearize/difference_blocks.hpp"
 #include "made_up_frame.hpp"
 #include "test_models.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "cost/hypothesis_renderer.hpp"
+#include "cost/draw/hypothesis_renderer.hpp"
 #include "device.hpp"
 #include "hypotrack/api/error.hpp"
 #include "observations.hpp"

@@ -16,9 +16,9 @@
 #include "base/stop_scope.hpp"
 #include "cost/backends.hpp"
 #include "cost/batched_terms.hpp"
-#include "cost/difference_blocks.hpp"
-#include "cost/hypothesis_renderer.hpp"
-#include "cost/linearizer_pool.hpp"
+#include "cost/draw/hypothesis_renderer.hpp"
+#include "cost/linearize/difference_blocks.hpp"
+#include "cost/linearize/linearizer_pool.hpp"
 #include "cost/term_residuals.hpp"
 
 namespace hypotrack::internal {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "cost/backends.hpp"
-#include "cost/host_linearizer.hpp"
+#include "cost/linearize/host_linearizer.hpp"
 #include "cost/split_cost.hpp"
 #include "cost/term_residuals.hpp"
 #include "hypotrack/api/error.hpp"

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "picture/surface.hpp"
 #include "scene/scene_plan.hpp"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "cost/hypothesis_renderer.hpp"
+#include "cost/draw/hypothesis_renderer.hpp"
 #include "track/loop/frame_record.hpp"
 
 namespace hypotrack::internal {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"
 

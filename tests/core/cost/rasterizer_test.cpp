@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 #include "every_target.hpp"
 #include "observations.hpp"
 #include "reference_rasterizer.hpp"

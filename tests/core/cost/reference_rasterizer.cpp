@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "cost/raster_kernels.hpp"
+#include "cost/draw/raster_kernels.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 
 namespace hypotrack::test {

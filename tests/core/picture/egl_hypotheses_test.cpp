@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "cost/hypothesis_renderer.hpp"
+#include "cost/draw/hypothesis_renderer.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "test_models.hpp"

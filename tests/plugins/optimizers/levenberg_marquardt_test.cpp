@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "cost/difference_blocks.hpp"
+#include "cost/linearize/difference_blocks.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/search.hpp"
 #include "limb_search.hpp"

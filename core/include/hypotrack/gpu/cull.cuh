@@ -3,8 +3,8 @@
 #include "hypotrack/gpu/vertices.cuh"
 
 /// Finds the triangles that may cover pixels, with a block of threads. The operations equal those
-/// of the CPU kernel (core/src/cost/raster_kernel.cpp), so that both cover the same pixels with
-/// the same depth.
+/// of the CPU kernel (core/src/cost/draw/raster_kernel.cpp), so that both cover the same pixels
+/// with the same depth.
 namespace hypotrack::cuda {
 
 /// Smallest area of a triangle that is drawn (twice the area, pixels^2). Below it, single precision

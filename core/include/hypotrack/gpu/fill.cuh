@@ -6,7 +6,7 @@
 #include "hypotrack/gpu/cull.cuh"
 
 /// Draws triangles into z-buffers with a block of threads. The operations equal those of the CPU
-/// kernel (core/src/cost/raster_kernel.cpp), so that both cover the same pixels with the same
+/// kernel (core/src/cost/draw/raster_kernel.cpp), so that both cover the same pixels with the same
 /// depth.
 namespace hypotrack::cuda {
 

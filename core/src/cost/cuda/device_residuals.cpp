@@ -4,7 +4,7 @@
 
 #include "cost/cuda/gram_matrix.hpp"
 #include "cost/cuda/transfer.hpp"
-#include "cost/difference_blocks.hpp"
+#include "cost/linearize/difference_blocks.hpp"
 
 namespace hypotrack::cuda::internal {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "cost/cuda/tile_upload.hpp"
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "cost/draw/raster_kernels.hpp"
 #include "cost/gl/egl_scene.hpp"
-#include "cost/raster_kernels.hpp"
 #include "gl/egl_context.hpp"
 #include "hypotrack/api/error.hpp"
 

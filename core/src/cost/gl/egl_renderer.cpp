@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "cost/draw/hypothesis_renderer.hpp"
 #include "cost/gl/egl_drawer.hpp"
-#include "cost/hypothesis_renderer.hpp"
 #include "gl/egl_context.hpp"
 
 namespace hypotrack::internal {

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"

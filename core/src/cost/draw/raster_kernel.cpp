@@ -6,10 +6,10 @@
 // lane; all lanes step through the pixels of their bounding boxes together. The rest are drawn one
 // by one, with one pixel per lane.
 
-#define HWY_TARGET_INCLUDE "cost/raster_kernel.cpp"
+#define HWY_TARGET_INCLUDE "cost/draw/raster_kernel.cpp"
 #include <hypotrack/plugin/foreach_target-inl.hpp>
 
-#include "cost/raster_kernels.hpp"
+#include "cost/draw/raster_kernels.hpp"
 #include "scene/block_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

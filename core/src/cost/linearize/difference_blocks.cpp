@@ -1,4 +1,4 @@
-#include "cost/difference_blocks.hpp"
+#include "cost/linearize/difference_blocks.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "cost/host_linearizer.hpp"
+#include "cost/linearize/host_linearizer.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

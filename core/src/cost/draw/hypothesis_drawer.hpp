@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "cost/raster_kernels.hpp"
+#include "cost/draw/raster_kernels.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "hypotrack/plugin/observation.hpp"
 #include "scene/scene_plan.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "cost/hypothesis_drawer.hpp"
-#include "cost/hypothesis_renderer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_renderer.hpp"
 
 namespace hypotrack::internal {
 namespace {

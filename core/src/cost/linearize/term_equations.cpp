@@ -1,4 +1,4 @@
-#include "cost/term_equations.hpp"
+#include "cost/linearize/term_equations.hpp"
 
 #include <cstddef>
 #include <span>

@@ -1,4 +1,4 @@
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 

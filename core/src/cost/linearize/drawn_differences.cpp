@@ -1,4 +1,4 @@
-#include "cost/drawn_differences.hpp"
+#include "cost/linearize/drawn_differences.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>

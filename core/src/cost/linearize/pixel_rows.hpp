@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "cost/raster_kernels.hpp"
+#include "cost/draw/raster_kernels.hpp"
 #include "scene/scene_plan.hpp"
 
 namespace hypotrack {

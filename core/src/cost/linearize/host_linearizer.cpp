@@ -1,4 +1,4 @@
-#include "cost/host_linearizer.hpp"
+#include "cost/linearize/host_linearizer.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
@@ -8,10 +8,10 @@
 #include <iterator>
 #include <utility>
 
-#include "cost/drawn_differences.hpp"
-#include "cost/pixel_rows.hpp"
-#include "cost/posed_neighbours.hpp"
-#include "cost/term_equations.hpp"
+#include "cost/linearize/drawn_differences.hpp"
+#include "cost/linearize/pixel_rows.hpp"
+#include "cost/linearize/posed_neighbours.hpp"
+#include "cost/linearize/term_equations.hpp"
 
 namespace hypotrack::internal {
 namespace {

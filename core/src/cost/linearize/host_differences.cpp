@@ -1,7 +1,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "cost/difference_blocks.hpp"
+#include "cost/linearize/difference_blocks.hpp"
 #include "hypotrack/plugin/optimizer.hpp"
 
 namespace hypotrack {

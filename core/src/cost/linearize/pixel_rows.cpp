@@ -1,6 +1,6 @@
-#include "cost/pixel_rows.hpp"
+#include "cost/linearize/pixel_rows.hpp"
 
-#define HWY_TARGET_INCLUDE "cost/pixel_rows.cpp"
+#define HWY_TARGET_INCLUDE "cost/linearize/pixel_rows.cpp"
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cost/posed_neighbours.hpp"
+#include "cost/linearize/posed_neighbours.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "cost/pixel_rows.hpp"
+#include "cost/linearize/pixel_rows.hpp"
 
 namespace hypotrack::internal {
 namespace {

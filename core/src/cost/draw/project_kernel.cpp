@@ -1,9 +1,9 @@
 // Compiled once per instruction set: the include below includes this file again.
 
-#define HWY_TARGET_INCLUDE "cost/project_kernel.cpp"
+#define HWY_TARGET_INCLUDE "cost/draw/project_kernel.cpp"
 #include <hypotrack/plugin/foreach_target-inl.hpp>
 
-#include "cost/raster_kernels.hpp"
+#include "cost/draw/raster_kernels.hpp"
 #include "scene/block_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

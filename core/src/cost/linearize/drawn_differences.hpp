@@ -6,8 +6,8 @@
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
-#include "cost/difference_blocks.hpp"
-#include "cost/hypothesis_drawer.hpp"
+#include "cost/draw/hypothesis_drawer.hpp"
+#include "cost/linearize/difference_blocks.hpp"
 #include "cost/term_residuals.hpp"
 
 namespace hypotrack {

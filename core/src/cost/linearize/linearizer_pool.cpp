@@ -1,4 +1,4 @@
-#include "cost/linearizer_pool.hpp"
+#include "cost/linearize/linearizer_pool.hpp"
 
 #include <utility>
 
