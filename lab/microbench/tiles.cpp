@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/tile_resampler.hpp"
+#include "cost/cuda/tiles/tile_resampler.hpp"
 #include "hypotrack/gpu/runtime.cuh"
 #include "test_models.hpp"
 #include "track/color/photometric.hpp"

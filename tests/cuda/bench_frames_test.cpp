@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "cost/cuda/pooled_mat_allocator.hpp"
+#include "cost/cuda/memory/pooled_mat_allocator.hpp"
 #include "lab/bench/frames.hpp"
 #include "pool_on_host.hpp"
 

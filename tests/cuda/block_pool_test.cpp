@@ -1,4 +1,4 @@
-#include "cost/cuda/block_pool.hpp"
+#include "cost/cuda/memory/block_pool.hpp"
 
 #include <gtest/gtest.h>
 

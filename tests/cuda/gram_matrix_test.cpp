@@ -1,11 +1,11 @@
-#include "cost/cuda/gram_matrix.hpp"
+#include "cost/cuda/linearize/gram_matrix.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "cost/cuda/device_residuals.hpp"
+#include "cost/cuda/linearize/device_residuals.hpp"
 #include "device.hpp"
 
 namespace hypotrack::cuda {

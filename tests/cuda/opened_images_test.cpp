@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/page_locked_images.hpp"
+#include "cost/cuda/memory/page_locked_images.hpp"
 #include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 

@@ -1,4 +1,4 @@
-#include "cost/cuda/page_locked_images.hpp"
+#include "cost/cuda/memory/page_locked_images.hpp"
 
 #include <gtest/gtest.h>
 

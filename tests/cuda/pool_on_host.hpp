@@ -6,7 +6,7 @@
 #include <new>
 #include <vector>
 
-#include "cost/cuda/block_pool.hpp"
+#include "cost/cuda/memory/block_pool.hpp"
 
 namespace hypotrack::test {
 

@@ -1,4 +1,4 @@
-#include "cost/cuda/tile_resampler.hpp"
+#include "cost/cuda/tiles/tile_resampler.hpp"
 
 #include <gtest/gtest.h>
 

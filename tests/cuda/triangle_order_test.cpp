@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/draw/device_scene.hpp"
 
 namespace hypotrack::cuda {
 namespace {

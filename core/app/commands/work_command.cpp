@@ -23,7 +23,7 @@
 #include "check_scene.hpp"
 #include "commands.hpp"
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/page_locked_images.hpp"
+#include "cost/cuda/memory/page_locked_images.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/plugin.hpp"
 #include "interrupt.hpp"

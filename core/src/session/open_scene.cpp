@@ -9,7 +9,7 @@
 #include "config/read_value.hpp"
 #include "config/yaml.hpp"
 #include "cost/cost.hpp"
-#include "cost/cuda/page_locked_images.hpp"
+#include "cost/cuda/memory/page_locked_images.hpp"
 #include "gl/egl_context.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/text.hpp"

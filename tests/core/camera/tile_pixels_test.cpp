@@ -1,6 +1,6 @@
-#include "cost/cuda/tile_pixels.hpp"
+#include "cost/cuda/tiles/tile_pixels.hpp"
 
-#include "cost/cuda/view_resampling.hpp"
+#include "cost/cuda/tiles/view_resampling.hpp"
 #include "tile_cases.hpp"
 
 namespace hypotrack {

@@ -1,7 +1,7 @@
 // Replaces the GPU backend in a build without a CUDA toolkit.
 #include "cost/backends.hpp"
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/page_locked_images.hpp"
+#include "cost/cuda/memory/page_locked_images.hpp"
 #include "hypotrack/api/error.hpp"
 
 namespace hypotrack::cuda::internal {

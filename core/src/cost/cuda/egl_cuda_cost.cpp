@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "cost/backends.hpp"
+#include "cost/cuda/draw/gl_interop.hpp"
 #include "cost/cuda/frame_on_device.hpp"
-#include "cost/cuda/gl_interop.hpp"
 #include "cost/cuda/host_batch.hpp"
-#include "cost/cuda/transfer.hpp"
+#include "cost/cuda/memory/transfer.hpp"
 #include "cost/gl/egl_drawer.hpp"
 #include "gl/egl_context.hpp"
 #include "hypotrack/api/error.hpp"

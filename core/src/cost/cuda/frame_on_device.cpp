@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/profile.hpp"
+#include "cost/cuda/memory/transfer.hpp"
 #include "cost/cuda/reserve_batch.hpp"
-#include "cost/cuda/transfer.hpp"
 #include "cost/term_residuals.hpp"
 
 namespace hypotrack::cuda::internal {

@@ -8,10 +8,10 @@
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/draw/device_scene.hpp"
+#include "cost/cuda/draw/tile_drawer.hpp"
 #include "cost/cuda/side_stream.hpp"
-#include "cost/cuda/tile_drawer.hpp"
-#include "cost/cuda/tile_upload.hpp"
+#include "cost/cuda/tiles/tile_upload.hpp"
 #include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "cost/backends.hpp"
-#include "cost/cuda/transfer.hpp"
+#include "cost/cuda/memory/transfer.hpp"
 
 namespace hypotrack::cuda::internal {
 

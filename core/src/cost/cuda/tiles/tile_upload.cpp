@@ -1,8 +1,8 @@
-#include "cost/cuda/tile_upload.hpp"
+#include "cost/cuda/tiles/tile_upload.hpp"
 
 #include <algorithm>
 
-#include "cost/cuda/transfer.hpp"
+#include "cost/cuda/memory/transfer.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

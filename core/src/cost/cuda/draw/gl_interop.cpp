@@ -1,4 +1,4 @@
-#include "cost/cuda/gl_interop.hpp"
+#include "cost/cuda/draw/gl_interop.hpp"
 
 // clang-format off
 #include <epoxy/gl.h>  // before CUDA's header, which would include another one

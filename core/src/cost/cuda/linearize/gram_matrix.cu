@@ -1,4 +1,4 @@
-#include "cost/cuda/gram_matrix.hpp"
+#include "cost/cuda/linearize/gram_matrix.hpp"
 
 #include "hypotrack/gpu/block.cuh"
 #include "hypotrack/gpu/runtime.cuh"

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "base/exported.hpp"
-#include "cost/cuda/load_balance.hpp"
+#include "cost/cuda/tiles/load_balance.hpp"
 #include "hypotrack/gpu/layout.hpp"
 #include "hypotrack/gpu/runtime.cuh"
 #include "hypotrack/plugin/observation.hpp"

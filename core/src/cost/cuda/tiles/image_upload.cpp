@@ -1,4 +1,4 @@
-#include "cost/cuda/image_upload.hpp"
+#include "cost/cuda/tiles/image_upload.hpp"
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "cost/cuda/pooled_mat_allocator.hpp"
+#include "cost/cuda/memory/pooled_mat_allocator.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

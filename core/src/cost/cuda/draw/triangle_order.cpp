@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/draw/device_scene.hpp"
 
 namespace hypotrack::cuda::internal {
 namespace {

@@ -5,7 +5,8 @@
 #include "base/exported.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 
-/// Normal equations of pixel residuals in GPU memory. The method is that of cost/pixel_rows.hpp.
+/// Normal equations of pixel residuals in GPU memory. The method is that of
+/// cost/linearize/pixel_rows.hpp.
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {
 

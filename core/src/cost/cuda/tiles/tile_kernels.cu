@@ -1,4 +1,4 @@
-#include "cost/cuda/tile_kernels.hpp"
+#include "cost/cuda/tiles/tile_kernels.hpp"
 
 #include <algorithm>
 

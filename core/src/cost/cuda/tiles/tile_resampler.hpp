@@ -4,7 +4,7 @@
 #include <span>
 
 #include "base/exported.hpp"
-#include "cost/cuda/load_balance.hpp"
+#include "cost/cuda/tiles/load_balance.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 #include "tile/tiles.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cost/cuda/tile_upload.hpp"
+#include "cost/cuda/tiles/tile_upload.hpp"
 #include "cost/draw/hypothesis_drawer.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"

@@ -3,7 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "base/exported.hpp"
-#include "cost/cuda/block_pool.hpp"
+#include "cost/cuda/memory/block_pool.hpp"
 
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {

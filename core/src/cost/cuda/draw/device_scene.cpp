@@ -1,4 +1,4 @@
-#include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/draw/device_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "cost/cuda/page_locked_images.hpp"
+#include "cost/cuda/memory/page_locked_images.hpp"
 
 #include <sys/mman.h>
 
@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/pooled_mat_allocator.hpp"
+#include "cost/cuda/memory/pooled_mat_allocator.hpp"
 #include "hypotrack/gpu/runtime.cuh"
 
 namespace hypotrack::cuda::internal {

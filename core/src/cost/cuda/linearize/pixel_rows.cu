@@ -1,4 +1,4 @@
-#include "cost/cuda/pixel_rows.hpp"
+#include "cost/cuda/linearize/pixel_rows.hpp"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ constexpr int kAllRowBlocks = 1024, kLeastRowBlocks = 64, kMostRowBlocks = 512;
 constexpr int kJoinWarps = 8;
 constexpr std::uint32_t kNoTriangle = ~0u;
 
-// As in cost/pixel_rows.cpp.
+// As in cost/linearize/pixel_rows.cpp.
 constexpr float kStep = 0.006f;
 constexpr float kInside = 2e-5f;
 constexpr float kSameDepth = 1e-5f;

@@ -1,4 +1,4 @@
-#include "cost/cuda/tile_drawer.hpp"
+#include "cost/cuda/draw/tile_drawer.hpp"
 
 #include <algorithm>
 

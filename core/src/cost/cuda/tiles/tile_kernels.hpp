@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/exported.hpp"
-#include "cost/cuda/tile_pixels.hpp"
+#include "cost/cuda/tiles/tile_pixels.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
 
 namespace hypotrack::cuda {

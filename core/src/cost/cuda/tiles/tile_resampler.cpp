@@ -1,13 +1,13 @@
-#include "cost/cuda/tile_resampler.hpp"
+#include "cost/cuda/tiles/tile_resampler.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-#include "cost/cuda/image_upload.hpp"
-#include "cost/cuda/tile_kernels.hpp"
-#include "cost/cuda/tile_upload.hpp"
-#include "cost/cuda/view_resampling.hpp"
+#include "cost/cuda/tiles/image_upload.hpp"
+#include "cost/cuda/tiles/tile_kernels.hpp"
+#include "cost/cuda/tiles/tile_upload.hpp"
+#include "cost/cuda/tiles/view_resampling.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/gpu/runtime.cuh"
 

@@ -1,11 +1,11 @@
-#include "cost/cuda/device_linearizer.hpp"
+#include "cost/cuda/linearize/device_linearizer.hpp"
 
 #include <algorithm>
 
-#include "cost/cuda/device_residuals.hpp"
-#include "cost/cuda/gram_matrix.hpp"
-#include "cost/cuda/pixel_rows.hpp"
-#include "cost/cuda/transfer.hpp"
+#include "cost/cuda/linearize/device_residuals.hpp"
+#include "cost/cuda/linearize/gram_matrix.hpp"
+#include "cost/cuda/linearize/pixel_rows.hpp"
+#include "cost/cuda/memory/transfer.hpp"
 #include "cost/linearize/difference_blocks.hpp"
 
 namespace hypotrack::cuda::internal {

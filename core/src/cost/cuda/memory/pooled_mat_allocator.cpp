@@ -1,4 +1,4 @@
-#include "cost/cuda/pooled_mat_allocator.hpp"
+#include "cost/cuda/memory/pooled_mat_allocator.hpp"
 
 #include <limits>
 #include <memory>

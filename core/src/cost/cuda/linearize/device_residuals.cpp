@@ -1,9 +1,9 @@
-#include "cost/cuda/device_residuals.hpp"
+#include "cost/cuda/linearize/device_residuals.hpp"
 
 #include <algorithm>
 
-#include "cost/cuda/gram_matrix.hpp"
-#include "cost/cuda/transfer.hpp"
+#include "cost/cuda/linearize/gram_matrix.hpp"
+#include "cost/cuda/memory/transfer.hpp"
 #include "cost/linearize/difference_blocks.hpp"
 
 namespace hypotrack::cuda::internal {

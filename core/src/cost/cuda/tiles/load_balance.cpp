@@ -1,4 +1,4 @@
-#include "cost/cuda/load_balance.hpp"
+#include "cost/cuda/tiles/load_balance.hpp"
 
 #include <algorithm>
 #include <cmath>
