@@ -5,7 +5,7 @@
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/error.hpp"
 #include "messages.hpp"
-#include "output/run_output.hpp"
+#include "output/run/run_output.hpp"
 #include "session/opened_scene.hpp"
 #include "start_drawing.hpp"
 #include "track/loop/scene_tracker.hpp"

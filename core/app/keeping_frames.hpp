@@ -2,7 +2,7 @@
 
 #include "hypotrack/api/error.hpp"
 #include "messages.hpp"
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 
 namespace hypotrack::app {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "output/summary.hpp"
+#include "output/run/summary.hpp"
 
 namespace hypotrack::app {
 

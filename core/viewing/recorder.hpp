@@ -9,7 +9,7 @@
 #include "base/open_folder.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/solution.hpp"
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {

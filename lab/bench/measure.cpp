@@ -7,8 +7,8 @@
 
 #include "cost/cuda/device.hpp"
 #include "lab/bench/frames.hpp"
-#include "output/metrics_output.hpp"
-#include "output/true_landmarks.hpp"
+#include "output/evaluate/true_landmarks.hpp"
+#include "output/run/metrics_output.hpp"
 #include "session/opened_scene.hpp"
 #include "track/loop/scene_tracker.hpp"
 

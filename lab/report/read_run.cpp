@@ -9,7 +9,7 @@
 #include "lab/run_numbers.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/run_folder.hpp"
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 
 namespace hypotrack::internal {
 namespace {

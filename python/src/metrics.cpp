@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "arrays.hpp"
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 
 namespace hypotrack::python {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 #include "test_paths.hpp"
 #include "track/search_space.hpp"
 

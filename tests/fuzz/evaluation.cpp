@@ -1,10 +1,10 @@
 // The tables of a run that are compared with ground truth.
 
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 
 #include <array>
 
-#include "output/reliability_tables.hpp"
+#include "output/evaluate/reliability_tables.hpp"
 #include "parts.hpp"
 
 namespace hypotrack::fuzz {

@@ -1,6 +1,6 @@
 // Tables of uncertainties.
 
-#include "output/sigma_table.hpp"
+#include "output/evaluate/sigma_table.hpp"
 #include "target.hpp"
 
 namespace hypotrack::fuzz {

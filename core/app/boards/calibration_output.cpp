@@ -10,7 +10,7 @@
 #include "base/text_file.hpp"
 #include "camera/lens/field_of_view.hpp"
 #include "hypotrack/api/error.hpp"
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 
 namespace hypotrack::app {
 namespace {

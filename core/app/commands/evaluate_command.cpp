@@ -10,7 +10,7 @@
 
 #include "base/text_file.hpp"
 #include "commands.hpp"
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "interrupt.hpp"
 #include "keeping_frames.hpp"
 #include "messages.hpp"
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"

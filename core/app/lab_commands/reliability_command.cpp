@@ -10,7 +10,7 @@
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
 #include "lab/report/reliability_plot.hpp"
-#include "output/reliability_tables.hpp"
+#include "output/evaluate/reliability_tables.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/api/session.hpp"
-#include "output/fixed_lag_output.hpp"
-#include "output/output_queue.hpp"
-#include "output/run_output.hpp"
+#include "output/run/fixed_lag_output.hpp"
+#include "output/run/output_queue.hpp"
+#include "output/run/run_output.hpp"
 #include "session/opened_scene.hpp"
 #include "track/loop/scene_tracker.hpp"
 

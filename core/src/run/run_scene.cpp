@@ -13,7 +13,7 @@
 #include "base/stop_scope.hpp"
 #include "camera/pair_check.hpp"
 #include "hypotrack/api/error.hpp"
-#include "output/true_landmarks.hpp"
+#include "output/evaluate/true_landmarks.hpp"
 #include "run/read_ahead.hpp"
 #include "run/results.hpp"
 #include "run/run_notes.hpp"

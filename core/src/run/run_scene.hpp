@@ -10,7 +10,7 @@
 #include "base/exported.hpp"
 #include "hypotrack/api/session.hpp"
 #include "hypotrack/plugin/plugin.hpp"
-#include "output/summary.hpp"
+#include "output/run/summary.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {

@@ -13,8 +13,8 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/output.hpp"
+#include "output/run/run_output.hpp"
 #include "output/run_directory.hpp"
-#include "output/run_output.hpp"
 #include "session/opened_scene.hpp"
 #include "subject.hpp"
 #include "test_models.hpp"

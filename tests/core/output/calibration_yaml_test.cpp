@@ -5,7 +5,7 @@
 #include <random>
 
 #include "hypotrack/api/calibration.hpp"
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

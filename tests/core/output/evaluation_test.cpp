@@ -1,4 +1,4 @@
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 
 #include <gmock/gmock.h>
 

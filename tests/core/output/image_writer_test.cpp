@@ -1,4 +1,4 @@
-#include "output/image_writer.hpp"
+#include "output/recording/image_writer.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "output/run_output.hpp"
+#include "output/run/run_output.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
-#include "output/output_queue.hpp"
+#include "output/run/output_queue.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 

@@ -1,4 +1,4 @@
-#include "output/true_landmarks.hpp"
+#include "output/evaluate/true_landmarks.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "output/worst_frames.hpp"
+#include "output/run/worst_frames.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,12 +1,12 @@
-#include "output/truth_output.hpp"
+#include "output/run/truth_output.hpp"
 
 #include <fmt/format.h>
 
 #include <string>
 
 #include "hypotrack/api/tables.hpp"
+#include "output/evaluate/true_landmarks.hpp"
 #include "output/table_text.hpp"
-#include "output/true_landmarks.hpp"
 
 namespace hypotrack::internal {
 

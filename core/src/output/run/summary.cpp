@@ -1,4 +1,4 @@
-#include "output/summary.hpp"
+#include "output/run/summary.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "output/metrics_output.hpp"
+#include "output/run/metrics_output.hpp"
 
 #include <utility>
 
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/api/overlay.hpp"
+#include "output/evaluate/true_landmarks.hpp"
 #include "output/run_directory.hpp"
-#include "output/true_landmarks.hpp"
 
 namespace hypotrack::internal {
 

@@ -1,4 +1,4 @@
-#include "output/output_queue.hpp"
+#include "output/run/output_queue.hpp"
 
 #include <chrono>
 #include <future>

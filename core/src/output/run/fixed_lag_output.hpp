@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "output/output_queue.hpp"
+#include "output/run/output_queue.hpp"
 #include "track/loop/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 

@@ -9,7 +9,7 @@
 #include "hypotrack/api/renderer.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/output.hpp"
-#include "output/metrics_output.hpp"
+#include "output/run/metrics_output.hpp"
 #include "output/run_directory.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "session/opened_scene.hpp"

@@ -1,4 +1,4 @@
-#include "output/reliability_tables.hpp"
+#include "output/evaluate/reliability_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "base/csv.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/tables.hpp"
+#include "output/evaluate/sigma_table.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "output/run_directory.hpp"
-#include "output/sigma_table.hpp"
 
 namespace hypotrack::internal {
 namespace {

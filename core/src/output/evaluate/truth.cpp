@@ -6,7 +6,7 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/tables.hpp"
-#include "output/true_landmarks.hpp"
+#include "output/evaluate/true_landmarks.hpp"
 
 namespace hypotrack {
 

@@ -1,4 +1,4 @@
-#include "output/uncertainty_output.hpp"
+#include "output/run/uncertainty_output.hpp"
 
 #include <fmt/format.h>
 

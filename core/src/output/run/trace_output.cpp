@@ -1,4 +1,4 @@
-#include "output/trace_output.hpp"
+#include "output/run/trace_output.hpp"
 
 #include <fmt/format.h>
 

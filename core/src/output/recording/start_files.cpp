@@ -5,7 +5,7 @@
 #include "config/yaml.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "output/recording_folder.hpp"
+#include "output/recording/recording_folder.hpp"
 
 namespace hypotrack::internal {
 namespace {

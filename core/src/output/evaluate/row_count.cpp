@@ -5,7 +5,7 @@
 
 #include "base/file_bytes.hpp"
 #include "hypotrack/api/error.hpp"
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 #include "output/run_directory.hpp"
 
 namespace hypotrack::internal {

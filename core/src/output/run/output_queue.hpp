@@ -8,7 +8,7 @@
 
 #include "base/bounded_queue.hpp"
 #include "base/exported.hpp"
-#include "output/run_output.hpp"
+#include "output/run/run_output.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

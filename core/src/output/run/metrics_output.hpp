@@ -14,11 +14,11 @@
 #include "hypotrack/plugin/output.hpp"
 #include "output/metrics/metrics.hpp"
 #include "output/metrics/status_metrics.hpp"
-#include "output/summary.hpp"
-#include "output/trace_output.hpp"
-#include "output/truth_output.hpp"
-#include "output/uncertainty_output.hpp"
-#include "output/worst_frames.hpp"
+#include "output/run/summary.hpp"
+#include "output/run/trace_output.hpp"
+#include "output/run/truth_output.hpp"
+#include "output/run/uncertainty_output.hpp"
+#include "output/run/worst_frames.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

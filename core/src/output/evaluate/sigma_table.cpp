@@ -1,4 +1,4 @@
-#include "output/sigma_table.hpp"
+#include "output/evaluate/sigma_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "output/evaluation.hpp"
+#include "output/evaluate/evaluation.hpp"
 
 #include <fmt/format.h>
 
@@ -12,9 +12,9 @@
 #include "base/csv.hpp"
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/tables.hpp"
+#include "output/evaluate/sigma_table.hpp"
+#include "output/evaluate/true_landmarks.hpp"
 #include "output/run_directory.hpp"
-#include "output/sigma_table.hpp"
-#include "output/true_landmarks.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 
 namespace hypotrack::internal {
 

@@ -1,4 +1,4 @@
-#include "output/recording_writer.hpp"
+#include "output/recording/recording_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -12,8 +12,8 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "output/recording_folder.hpp"
-#include "output/true_landmarks.hpp"
+#include "output/evaluate/true_landmarks.hpp"
+#include "output/recording/recording_folder.hpp"
 
 namespace hypotrack::internal {
 namespace {

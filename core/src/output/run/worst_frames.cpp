@@ -1,4 +1,4 @@
-#include "output/worst_frames.hpp"
+#include "output/run/worst_frames.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "hypotrack/api/media.hpp"
-#include "output/image_writer.hpp"
+#include "output/recording/image_writer.hpp"
 
 namespace hypotrack::internal {
 namespace {

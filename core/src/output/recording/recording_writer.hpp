@@ -12,9 +12,9 @@
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/api/tables.hpp"
-#include "output/image_writer.hpp"
 #include "output/metrics/motion_speeds.hpp"
-#include "output/recording_folder.hpp"
+#include "output/recording/image_writer.hpp"
+#include "output/recording/recording_folder.hpp"
 #include "session/scene_file.hpp"
 
 namespace hypotrack {

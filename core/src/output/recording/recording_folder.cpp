@@ -1,4 +1,4 @@
-#include "output/recording_folder.hpp"
+#include "output/recording/recording_folder.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "output/fixed_lag_output.hpp"
+#include "output/run/fixed_lag_output.hpp"
 
 #include <utility>
 

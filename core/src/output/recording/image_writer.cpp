@@ -1,4 +1,4 @@
-#include "output/image_writer.hpp"
+#include "output/recording/image_writer.hpp"
 
 #include <fmt/format.h>
 #include <oneapi/tbb/task_arena.h>
