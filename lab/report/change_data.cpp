@@ -13,9 +13,9 @@
 #include "base/text_file.hpp"
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
-#include "lab/report/cells.hpp"
 #include "lab/report/packed.hpp"
-#include "lab/report/significance.hpp"
+#include "lab/report/statistics/significance.hpp"
+#include "lab/report/tables/cells.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -13,7 +13,7 @@
 #include "lab/report/page.hpp"
 #include "lab/report/report_data.hpp"
 #include "lab/report/study_data.hpp"
-#include "lab/report/table_data.hpp"
+#include "lab/report/tables/table_data.hpp"
 
 namespace hypotrack::internal {
 namespace {

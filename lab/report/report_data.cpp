@@ -8,11 +8,11 @@
 #include <set>
 
 #include "lab/json_file.hpp"
-#include "lab/report/metric_info.hpp"
 #include "lab/report/packed.hpp"
-#include "lab/report/plot_data.hpp"
+#include "lab/report/plots/plot_data.hpp"
 #include "lab/report/replay.hpp"
-#include "lab/report/table_data.hpp"
+#include "lab/report/statistics/metric_info.hpp"
+#include "lab/report/tables/table_data.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <array>
 
-#include "lab/report/plot_data.hpp"
+#include "lab/report/plots/plot_data.hpp"
 #include "lab/report/report_data.hpp"
 #include "lab/report/study_data.hpp"
-#include "lab/report/table_data.hpp"
+#include "lab/report/tables/table_data.hpp"
 #include "lab/study/results.hpp"
 #include "parts.hpp"
 

@@ -9,7 +9,7 @@
 #include "base/text_file.hpp"
 #include "commands.hpp"
 #include "hypotrack/api/error.hpp"
-#include "lab/report/reliability_plot.hpp"
+#include "lab/report/plots/reliability_plot.hpp"
 #include "output/evaluate/reliability_tables.hpp"
 
 namespace hypotrack::app {

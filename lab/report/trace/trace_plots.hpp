@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "lab/report/plot_parts.hpp"
+#include "lab/report/plots/plot_parts.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {

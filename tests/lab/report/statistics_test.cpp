@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "lab/report/power.hpp"
-#include "lab/report/significance.hpp"
+#include "lab/report/statistics/power.hpp"
+#include "lab/report/statistics/significance.hpp"
 
 namespace hypotrack {
 namespace {

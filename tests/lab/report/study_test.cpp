@@ -7,11 +7,11 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
-#include "lab/report/comparison.hpp"
-#include "lab/report/plot_data.hpp"
+#include "lab/report/plots/plot_data.hpp"
 #include "lab/report/report_data.hpp"
+#include "lab/report/statistics/comparison.hpp"
 #include "lab/report/study_data.hpp"
-#include "lab/report/table_data.hpp"
+#include "lab/report/tables/table_data.hpp"
 #include "study_fixture.hpp"
 #include "test_paths.hpp"
 

@@ -1,4 +1,4 @@
-#include "lab/report/cells.hpp"
+#include "lab/report/tables/cells.hpp"
 
 #include <cmath>
 #include <set>

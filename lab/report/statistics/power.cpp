@@ -1,4 +1,4 @@
-#include "lab/report/power.hpp"
+#include "lab/report/statistics/power.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/statistics.hpp"
-#include "lab/report/significance.hpp"
+#include "lab/report/statistics/significance.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -6,7 +6,7 @@
 #include "base/csv.hpp"
 #include "base/text_file.hpp"
 #include "lab/json_file.hpp"
-#include "lab/report/table_data.hpp"
+#include "lab/report/tables/table_data.hpp"
 #include "lab/report/trace/trace_plots.hpp"
 
 namespace hypotrack::internal {

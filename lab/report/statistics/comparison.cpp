@@ -1,10 +1,10 @@
-#include "lab/report/comparison.hpp"
+#include "lab/report/statistics/comparison.hpp"
 
 #include <algorithm>
 
 #include "base/statistics.hpp"
-#include "lab/report/power.hpp"
-#include "lab/report/significance.hpp"
+#include "lab/report/statistics/power.hpp"
+#include "lab/report/statistics/significance.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "lab/report/comparison.hpp"
-#include "lab/report/metric_info.hpp"
+#include "lab/report/statistics/comparison.hpp"
+#include "lab/report/statistics/metric_info.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {

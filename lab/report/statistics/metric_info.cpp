@@ -1,4 +1,4 @@
-#include "lab/report/metric_info.hpp"
+#include "lab/report/statistics/metric_info.hpp"
 
 #include <algorithm>
 

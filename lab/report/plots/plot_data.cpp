@@ -1,4 +1,4 @@
-#include "lab/report/plot_data.hpp"
+#include "lab/report/plots/plot_data.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,9 @@
 #include "base/statistics.hpp"
 #include "hypotrack/api/error.hpp"
 #include "lab/json_file.hpp"
-#include "lab/report/metric_info.hpp"
 #include "lab/report/packed.hpp"
-#include "lab/report/plot_parts.hpp"
+#include "lab/report/plots/plot_parts.hpp"
+#include "lab/report/statistics/metric_info.hpp"
 #include "lab/report/trace/trace_plots.hpp"
 
 namespace hypotrack::internal {

@@ -1,4 +1,4 @@
-#include "lab/report/reliability_plot.hpp"
+#include "lab/report/plots/reliability_plot.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "lab/report/power.hpp"
-#include "lab/report/significance.hpp"
-#include "lab/report/table_data.hpp"
+#include "lab/report/statistics/power.hpp"
+#include "lab/report/statistics/significance.hpp"
+#include "lab/report/tables/table_data.hpp"
 
 namespace hypotrack::internal {
 namespace {

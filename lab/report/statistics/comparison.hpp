@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "lab/report/metric_info.hpp"
+#include "lab/report/statistics/metric_info.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "lab/report/cells.hpp"
 #include "lab/report/study_data.hpp"
+#include "lab/report/tables/cells.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "lab/report/table_data.hpp"
+#include "lab/report/tables/table_data.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,8 @@
 
 #include "base/statistics.hpp"
 #include "lab/json_file.hpp"
-#include "lab/report/cells.hpp"
 #include "lab/report/packed.hpp"
+#include "lab/report/tables/cells.hpp"
 
 namespace hypotrack::internal {
 namespace {

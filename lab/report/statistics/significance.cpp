@@ -1,4 +1,4 @@
-#include "lab/report/significance.hpp"
+#include "lab/report/statistics/significance.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

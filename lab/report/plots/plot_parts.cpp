@@ -1,4 +1,4 @@
-#include "lab/report/plot_parts.hpp"
+#include "lab/report/plots/plot_parts.hpp"
 
 #include "hypotrack/plugin/params.hpp"
 #include "lab/json_file.hpp"
