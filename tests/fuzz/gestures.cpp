@@ -1,6 +1,6 @@
 // Tables of gestures.
 
-#include "gestures.hpp"
+#include "motion/gestures.hpp"
 
 #include "fuzz_scenes.hpp"
 

@@ -1,6 +1,6 @@
 // Motions by tables of joints, to which models are fitted.
 
-#include "joint_motion.hpp"
+#include "motion/joint_motion.hpp"
 #include "target.hpp"
 #include "test_models.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "fuzz_scenes.hpp"
 #include "hypotrack/api/config.hpp"
-#include "script.hpp"
+#include "motion/script.hpp"
 
 namespace hypotrack::fuzz {
 

@@ -8,15 +8,15 @@
 #include <string_view>
 #include <vector>
 
-#include "cards.hpp"
 #include "faults.hpp"
-#include "forearm.hpp"
 #include "hypotrack/api/calibration.hpp"
 #include "hypotrack/api/renderer.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "joint_motion.hpp"
-#include "person.hpp"
-#include "random_motion.hpp"
+#include "motion/joint_motion.hpp"
+#include "motion/random_motion.hpp"
+#include "stage/cards.hpp"
+#include "stage/forearm.hpp"
+#include "stage/person.hpp"
 
 namespace hypotrack::synthetic {
 

@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "background.hpp"
-#include "cards.hpp"
 #include "faults.hpp"
 #include "hypotrack/api/renderer.hpp"
 #include "hypotrack/plugin/plugin.hpp"
-#include "motion.hpp"
+#include "motion/motion.hpp"
+#include "motion/script.hpp"
 #include "params.hpp"
-#include "script.hpp"
 #include "sensor.hpp"
-#include "stage.hpp"
+#include "stage/background.hpp"
+#include "stage/cards.hpp"
+#include "stage/stage.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "gestures.hpp"
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/plugin.hpp"
+#include "motion/gestures.hpp"
+#include "motion/script.hpp"
 #include "penetration.hpp"
-#include "script.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

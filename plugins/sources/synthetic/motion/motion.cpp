@@ -1,4 +1,4 @@
-#include "motion.hpp"
+#include "motion/motion.hpp"
 
 #include <algorithm>
 #include <cmath>

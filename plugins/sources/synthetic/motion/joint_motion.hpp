@@ -7,7 +7,7 @@
 #include "hypotrack/api/calibration.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "script.hpp"
+#include "motion/script.hpp"
 
 namespace hypotrack::synthetic {
 

@@ -1,4 +1,4 @@
-#include "keyframes.hpp"
+#include "motion/keyframes.hpp"
 
 #include <fmt/format.h>
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
-#include "gestures.hpp"
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/scene.hpp"
+#include "motion/gestures.hpp"
 
 namespace hypotrack::synthetic {
 

@@ -3,10 +3,10 @@
 #include <utility>
 #include <vector>
 
-#include "gestures.hpp"
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/scene.hpp"
-#include "motion.hpp"
+#include "motion/gestures.hpp"
+#include "motion/motion.hpp"
 
 namespace hypotrack::synthetic {
 

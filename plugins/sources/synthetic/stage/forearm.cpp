@@ -1,4 +1,4 @@
-#include "forearm.hpp"
+#include "stage/forearm.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
-#include "surfaces.hpp"
+#include "stage/surfaces.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -1,4 +1,4 @@
-#include "background.hpp"
+#include "stage/background.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/media.hpp"
 #include "hypotrack/api/renderer.hpp"
-#include "surfaces.hpp"
+#include "stage/surfaces.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

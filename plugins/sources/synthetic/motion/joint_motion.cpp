@@ -1,4 +1,4 @@
-#include "joint_motion.hpp"
+#include "motion/joint_motion.hpp"
 
 #include <fmt/format.h>
 

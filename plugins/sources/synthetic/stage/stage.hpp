@@ -4,10 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "cards.hpp"
-#include "forearm.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/plugin.hpp"
+#include "stage/cards.hpp"
+#include "stage/forearm.hpp"
 
 namespace hypotrack::synthetic {
 

@@ -1,4 +1,4 @@
-#include "random_poses.hpp"
+#include "motion/random_poses.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,7 +11,7 @@
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/pose.hpp"
 #include "hypotrack/plugin/kinematics.hpp"
-#include "keyframes.hpp"
+#include "motion/keyframes.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "gestures.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/scene.hpp"
-#include "random_motion.hpp"
+#include "motion/gestures.hpp"
+#include "motion/random_motion.hpp"
 
 namespace hypotrack::synthetic {
 

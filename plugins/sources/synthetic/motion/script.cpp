@@ -1,4 +1,4 @@
-#include "script.hpp"
+#include "motion/script.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hypotrack/api/error.hpp"
-#include "keyframes.hpp"
+#include "motion/keyframes.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

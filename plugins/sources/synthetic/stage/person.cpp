@@ -1,4 +1,4 @@
-#include "person.hpp"
+#include "stage/person.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "gestures.hpp"
+#include "motion/gestures.hpp"
 
 #include <fmt/format.h>
 #include <fnmatch.h>

@@ -1,4 +1,4 @@
-#include "random_motion.hpp"
+#include "motion/random_motion.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "hypotrack/api/error.hpp"
-#include "keyframes.hpp"
-#include "random_poses.hpp"
+#include "motion/keyframes.hpp"
+#include "motion/random_poses.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -1,4 +1,4 @@
-#include "cards.hpp"
+#include "stage/cards.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "hypotrack/api/error.hpp"
 #include "hypotrack/api/media.hpp"
-#include "surfaces.hpp"
+#include "stage/surfaces.hpp"
 
 namespace hypotrack::synthetic {
 namespace {

@@ -1,4 +1,4 @@
-#include "surfaces.hpp"
+#include "stage/surfaces.hpp"
 
 #include <opencv2/imgproc.hpp>
 #include <utility>

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "gestures.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/config.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/params.hpp"
-#include "script.hpp"
+#include "motion/gestures.hpp"
+#include "motion/script.hpp"
 
 namespace hypotrack::synthetic {
 
