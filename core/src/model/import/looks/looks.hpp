@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
+#include "model/import/looks/wrapped_picture.hpp"
 #include "model/import/steps.hpp"
-#include "model/import/wrapped_picture.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "model/import/patches.hpp"
+#include "model/import/looks/patches.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -3,7 +3,7 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
-#include "model/import/wrapped_picture.hpp"
+#include "model/import/looks/wrapped_picture.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

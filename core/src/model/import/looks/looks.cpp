@@ -1,4 +1,4 @@
-#include "model/import/looks.hpp"
+#include "model/import/looks/looks.hpp"
 
 #include <fmt/format.h>
 

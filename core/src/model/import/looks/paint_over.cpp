@@ -3,7 +3,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "model/import/patches.hpp"
+#include "model/import/looks/patches.hpp"
 #include "model/import/srgb.hpp"
 
 namespace hypotrack::internal {

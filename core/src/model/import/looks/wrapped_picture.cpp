@@ -1,4 +1,4 @@
-#include "model/import/wrapped_picture.hpp"
+#include "model/import/looks/wrapped_picture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "hypotrack/api/mesh_io.hpp"
-#include "model/import/looks.hpp"
-#include "model/import/patches.hpp"
+#include "model/import/looks/looks.hpp"
+#include "model/import/looks/patches.hpp"
 #include "model/import/steps.hpp"
 
 namespace hypotrack::internal {
