@@ -13,8 +13,8 @@
 #include "hypotrack/plugin/kinematics.hpp"
 #include "lab/judge/pose_recoveries.hpp"
 #include "track/color/photometric.hpp"
-#include "track/displace.hpp"
 #include "track/loop/scene_tracker.hpp"
+#include "track/search/displace.hpp"
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack::internal {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -10,8 +10,8 @@
 #include "base/stop_scope.hpp"
 #include "hypotrack/api/error.hpp"
 #include "session/opened_scene.hpp"
-#include "track/frame_search.hpp"
 #include "track/loop/scene_tracker.hpp"
+#include "track/search/frame_search.hpp"
 
 namespace hypotrack::internal {
 namespace {

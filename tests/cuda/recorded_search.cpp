@@ -10,7 +10,7 @@
 
 #include "output/recording/recording_writer.hpp"
 #include "test_paths.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 
 namespace hypotrack::test {
 namespace {

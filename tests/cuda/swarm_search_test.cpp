@@ -9,7 +9,7 @@
 #include "probes.hpp"
 #include "pso_cuda.hpp"
 #include "stereo_color.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 
 namespace hypotrack {
 namespace {

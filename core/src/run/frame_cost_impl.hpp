@@ -7,7 +7,7 @@
 
 #include "hypotrack/api/frame_cost.hpp"
 #include "session/opened_scene.hpp"
-#include "track/frame_search.hpp"
+#include "track/search/frame_search.hpp"
 
 namespace hypotrack {
 

@@ -11,7 +11,7 @@
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/starter.hpp"
 #include "session/opened_scene.hpp"
-#include "track/displace.hpp"
+#include "track/search/displace.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -17,7 +17,7 @@
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/status.hpp"
 

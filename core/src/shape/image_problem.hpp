@@ -11,7 +11,7 @@
 #include "shape/shape_targets.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

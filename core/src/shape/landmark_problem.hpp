@@ -5,7 +5,7 @@
 #include "base/exported.hpp"
 #include "shape/joint_fit.hpp"
 #include "shape/shape_targets.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

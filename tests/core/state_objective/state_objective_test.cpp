@@ -7,7 +7,7 @@
 #include "hypotrack/gpu/device_cost.hpp"
 #include "hypotrack/gpu/runtime.cuh"
 #include "test_models.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 #include "weighted_sum.hpp"
 
 namespace hypotrack {

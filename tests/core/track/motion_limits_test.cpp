@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "test_models.hpp"
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack {

@@ -9,7 +9,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/api/error.hpp"
 #include "test_models.hpp"
-#include "track/frame_search.hpp"
+#include "track/search/frame_search.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "track/search_cost.hpp"
+#include "track/search/search_cost.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include "hypotrack/api/files.hpp"
 #include "hypotrack/plugin/output.hpp"
 #include "output/metrics/frame_outcome.hpp"
-#include "track/optimizer_trace.hpp"
+#include "track/search/optimizer_trace.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -7,7 +7,7 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/api/frame.hpp"
-#include "track/candidate_finder.hpp"
+#include "track/search/candidate_finder.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -7,8 +7,8 @@
 #include "base/exported.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/solution.hpp"
-#include "track/candidate_finder.hpp"
 #include "track/loop/loop_state.hpp"
+#include "track/search/candidate_finder.hpp"
 #include "track/status.hpp"
 #include "track/uncertainty.hpp"
 

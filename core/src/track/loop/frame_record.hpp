@@ -7,9 +7,9 @@
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/output.hpp"
-#include "track/candidate_finder.hpp"
-#include "track/frame_search.hpp"
-#include "track/optimizer_trace.hpp"
+#include "track/search/candidate_finder.hpp"
+#include "track/search/frame_search.hpp"
+#include "track/search/optimizer_trace.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

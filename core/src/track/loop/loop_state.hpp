@@ -10,10 +10,10 @@
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/search.hpp"
-#include "track/candidate_finder.hpp"
 #include "track/loop/given_start.hpp"
 #include "track/loop/scene_tracks.hpp"
 #include "track/loop/trail.hpp"
+#include "track/search/candidate_finder.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 

@@ -13,8 +13,8 @@
 #include "hypotrack/api/solution.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
-#include "track/frame_search.hpp"
 #include "track/rig/rig_watch.hpp"
+#include "track/search/frame_search.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

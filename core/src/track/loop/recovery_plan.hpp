@@ -6,8 +6,8 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/api/frame.hpp"
-#include "track/candidate_finder.hpp"
 #include "track/loop/loop_state.hpp"
+#include "track/search/candidate_finder.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

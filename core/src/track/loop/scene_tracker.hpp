@@ -17,7 +17,7 @@
 #include "track/loop/loop_state.hpp"
 #include "track/loop/picture_watch.hpp"
 #include "track/loop/recovery_plan.hpp"
-#include "track/optimizer_trace.hpp"
+#include "track/search/optimizer_trace.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

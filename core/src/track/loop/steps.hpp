@@ -5,9 +5,9 @@
 #include "base/exported.hpp"
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/solution.hpp"
-#include "track/candidate_finder.hpp"
 #include "track/loop/loop_state.hpp"
 #include "track/loop/recovery_plan.hpp"
+#include "track/search/candidate_finder.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "hypotrack/plugin/numbers.hpp"
-#include "track/search_cost.hpp"
+#include "track/search/search_cost.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -13,12 +13,12 @@
 #include "hypotrack/api/frame.hpp"
 #include "hypotrack/api/scene.hpp"
 #include "tile/tiles.hpp"
-#include "track/frame_search.hpp"
 #include "track/recover/held_models.hpp"
 #include "track/recover/least_squares.hpp"
 #include "track/recover/place_finder.hpp"
 #include "track/recover/postures.hpp"
 #include "track/recover/recovery_settings.hpp"
+#include "track/search/frame_search.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

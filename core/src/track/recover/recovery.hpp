@@ -13,7 +13,6 @@
 #include "hypotrack/api/scene.hpp"
 #include "hypotrack/plugin/starter.hpp"
 #include "track/color/background_model.hpp"
-#include "track/frame_search.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/depth_weights.hpp"
 #include "track/recover/empty_places.hpp"
@@ -21,6 +20,7 @@
 #include "track/recover/place_finder.hpp"
 #include "track/recover/pose_search.hpp"
 #include "track/recover/recovery_settings.hpp"
+#include "track/search/frame_search.hpp"
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {

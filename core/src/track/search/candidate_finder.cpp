@@ -1,4 +1,4 @@
-#include "track/candidate_finder.hpp"
+#include "track/search/candidate_finder.hpp"
 
 #include <oneapi/tbb/task_arena.h>
 
@@ -8,8 +8,8 @@
 
 #include "base/profile.hpp"
 #include "hypotrack/plugin/search.hpp"
-#include "track/displace.hpp"
-#include "track/model_search.hpp"
+#include "track/search/displace.hpp"
+#include "track/search/model_search.hpp"
 
 namespace hypotrack::internal {
 namespace {

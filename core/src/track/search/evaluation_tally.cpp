@@ -1,4 +1,4 @@
-#include "track/evaluation_tally.hpp"
+#include "track/search/evaluation_tally.hpp"
 
 #include <fmt/format.h>
 

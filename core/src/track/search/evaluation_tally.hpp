@@ -8,7 +8,7 @@
 
 #include "base/exported.hpp"
 #include "hypotrack/plugin/optimizer.hpp"
-#include "track/optimizer_trace.hpp"
+#include "track/search/optimizer_trace.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

@@ -1,4 +1,4 @@
-#include "track/frame_search.hpp"
+#include "track/search/frame_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "hypotrack/api/stop.hpp"
 #include "hypotrack/plugin/search.hpp"
 #include "plugin/plugin_call.hpp"
-#include "track/search_cost.hpp"
+#include "track/search/search_cost.hpp"
 
 namespace hypotrack::internal {
 namespace {

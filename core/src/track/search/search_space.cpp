@@ -1,4 +1,4 @@
-#include "track/search_space.hpp"
+#include "track/search/search_space.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/exported.hpp"
-#include "track/candidate_finder.hpp"
+#include "track/search/candidate_finder.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {

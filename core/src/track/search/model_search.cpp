@@ -1,4 +1,4 @@
-#include "track/model_search.hpp"
+#include "track/search/model_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -18,8 +18,8 @@
 #include "track/color/photometric.hpp"
 #include "track/color/still_background.hpp"
 #include "track/occlude/hidden_views.hpp"
-#include "track/optimizer_trace.hpp"
-#include "track/search_space.hpp"
+#include "track/search/optimizer_trace.hpp"
+#include "track/search/search_space.hpp"
 #include "track/tracker_parts.hpp"
 
 namespace hypotrack {

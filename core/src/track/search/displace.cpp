@@ -1,4 +1,4 @@
-#include "track/displace.hpp"
+#include "track/search/displace.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

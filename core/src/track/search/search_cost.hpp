@@ -7,8 +7,8 @@
 #include "cost/cost.hpp"
 #include "hypotrack/plugin/optimizer.hpp"
 #include "hypotrack/plugin/output.hpp"
-#include "track/evaluation_tally.hpp"
-#include "track/search_space.hpp"
+#include "track/search/evaluation_tally.hpp"
+#include "track/search/search_space.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
