@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <string_view>
 #include <utility>
@@ -47,6 +49,17 @@ decltype(auto) call_plugin(const std::string& who, bool explains, const std::str
     rethrow_from(place.empty() ? who : place + ": " + who);
   } catch (...) {
     rethrow_from(place.empty() ? who : place + ": " + who);
+  }
+}
+
+/// Calls a function that works on a frame. Names the frame in what it throws, and if it crashes.
+template <class Function>
+decltype(auto) in_frame(int index, Function&& function) {
+  const RunningFrame running(index);
+  try {
+    return std::forward<Function>(function)();
+  } catch (...) {
+    rethrow_from(fmt::format("frame {}", index));
   }
 }
 

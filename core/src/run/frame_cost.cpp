@@ -76,11 +76,7 @@ void FrameCost::look(const Frame& frame, const Eigen::VectorXd& around) {
   self.frame.reset();
   self.single_prepared = false;
   self.search.forget_colors();
-  try {
-    self.search.look(frame, around, false);
-  } catch (...) {
-    detail::rethrow_from(fmt::format("frame {}", frame.index));
-  }
+  detail::in_frame(frame.index, [&] { self.search.look(frame, around, false); });
   self.frame = frame;
 }
 

@@ -26,7 +26,7 @@ Candidate result_of(BackgroundSearch& background) {
 }
 
 TEST(BackgroundSearch, GivesItsResultOnceAndNothingBefore) {
-  BackgroundSearch background;
+  BackgroundSearch background(2);
   EXPECT_FALSE(background.is_running());
   std::atomic<bool> may_end = false;
   background.start(grey_frame(), [&](const Frame&) {
@@ -45,7 +45,7 @@ TEST(BackgroundSearch, GivesItsResultOnceAndNothingBefore) {
 TEST(BackgroundSearch, SearchesACopyOfTheFrameWhoseImagesTheSourceReuses) {
   Frame frame = grey_frame();
   std::atomic<bool> may_look = false;
-  BackgroundSearch background;
+  BackgroundSearch background(2);
   background.start(frame, [&](const Frame& copy) {
     while (!may_look) std::this_thread::yield();
     Candidate found;
@@ -58,7 +58,7 @@ TEST(BackgroundSearch, SearchesACopyOfTheFrameWhoseImagesTheSourceReuses) {
 }
 
 TEST(BackgroundSearch, ThrowsWhatTheSearchThrew) {
-  BackgroundSearch background;
+  BackgroundSearch background(2);
   background.start(grey_frame(), [](const Frame&) -> Candidate { throw std::runtime_error("no"); });
   EXPECT_THROW(result_of(background), std::runtime_error);
   EXPECT_FALSE(background.is_running());
@@ -68,7 +68,7 @@ TEST(BackgroundSearch, EndsWhenItIsCancelledAndBeginsAgain) {
   const auto endless = [](const Frame&) -> Candidate {
     while (true) check_stop();
   };
-  BackgroundSearch background;
+  BackgroundSearch background(2);
   background.cancel();
   background.start(grey_frame(), endless);
   background.cancel();

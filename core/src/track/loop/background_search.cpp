@@ -26,7 +26,7 @@ void BackgroundSearch::start(const Frame& frame, Search search) {
   job_ = std::async(std::launch::async, [this, copy = copied(frame), search = std::move(search)] {
     const StopTest is_unwanted = [this] { return unwanted_.load(); };
     const StopScope scope(is_unwanted);
-    return search(copy);
+    return arena_.execute([&] { return search(copy); });
   });
 }
 

@@ -17,7 +17,8 @@ class BackgroundSearch {
  public:
   using Search = std::function<Candidate(const Frame&)>;
 
-  BackgroundSearch() = default;
+  /// `threads`: those that a search may use.
+  explicit BackgroundSearch(int threads) : arena_(threads) {}
   ~BackgroundSearch() { cancel(); }
   BackgroundSearch(const BackgroundSearch&) = delete;
   BackgroundSearch& operator=(const BackgroundSearch&) = delete;
@@ -34,6 +35,7 @@ class BackgroundSearch {
   void cancel();
 
  private:
+  oneapi::tbb::task_arena arena_;
   std::atomic<bool> unwanted_ = false;
   std::future<Candidate> job_;
 };

@@ -1,7 +1,5 @@
 #include "track/loop/scene_tracker.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <optional>
@@ -15,24 +13,6 @@
 #include "track/loop/steps.hpp"
 
 namespace hypotrack::internal {
-namespace {
-
-/// Calls a function and names the frame in what it throws, and if it crashes.
-template <class Function>
-void naming(const Frame& frame, const Function& function) {
-  const detail::RunningFrame running(frame.index);
-  try {
-    function();
-  } catch (...) {
-    detail::rethrow_from(fmt::format("frame {}", frame.index));
-  }
-}
-
-int arena_size(const EvaluateSettings& settings) {
-  return settings.threads > 0 ? settings.threads : tbb::task_arena::automatic;
-}
-
-}  // namespace
 
 SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start,
                            std::uint64_t seed)
@@ -40,8 +20,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       terms_(parts.objective),
       pictures_(parts.cameras, terms_, loop_.settings.check_pictures && look_at_pictures(terms_)),
       judge_(loop_),
-      arena_(arena_size(parts.evaluate)),
-      background_arena_(arena_size(parts.evaluate)) {
+      arena_(parts.evaluate.threads > 0 ? parts.evaluate.threads : tbb::task_arena::automatic),
+      background_(arena_.max_concurrency()) {
   check_looking(parts, loop_.recovers());
   reserve_evaluations(parts.fixed_lag, judge_.evaluations(), loop_.finder.budget());
 }
@@ -66,7 +46,8 @@ Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, Fram
     pictures_.keep_brightness();
     if (!spoils_pictures(fault)) {
       const Frame steady = pictures_.steadied(frame);
-      naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
+      detail::in_frame(steady.index,
+                       [&] { find_or_leave_device(steady, solution, record, trace); });
       // A search in the background changes what this would read.
       const FrameSearch* search = background_.is_running() ? nullptr : &loop_.finder.search();
       if (pictures_.doubts_depth(solution, search)) call_uncertain(solution);
@@ -74,7 +55,7 @@ Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, Fram
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }
-  naming(frame, [&] {
+  detail::in_frame(frame.index, [&] {
     solution.state = loop_.trail.output(solution);
     solution.landmarks = loop_.scene.landmarks(solution.state);
   });
@@ -118,8 +99,7 @@ void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* re
 void SceneTracker::find_in_background(const Frame& frame, const RecoveryRequest& request,
                                       const Candidate& best, Solution& solution) {
   background_.start(frame, [this, request, found = best](const Frame& copy) mutable {
-    background_arena_.execute(
-        [&] { loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7)); });
+    loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7));
     return found;
   });
   stay_lost(frame, solution);
@@ -155,7 +135,7 @@ void SceneTracker::search_anew() {
 }
 
 void SceneTracker::check(const Frame& frame) {
-  naming(frame, [&] {
+  detail::in_frame(frame.index, [&] {
     FrameSearch& search = loop_.finder.search();
     search.take_in(search.tiles(), frame, search.tiles().plan(frame, loop_.trail.state()));
   });
@@ -172,10 +152,6 @@ std::string SceneTracker::problem_of_start(const Frame& frame) const {
   if (!loop_.given.expects_any()) return {};
   return internal::problem_of_start(frame, loop_.trail.state(), loop_.tiles(),
                                     loop_.settings.min_visible);
-}
-
-Observation SceneTracker::seen(const Frame& frame) const {
-  return loop_.finder.search().seen(pictures_.steadied(frame));
 }
 
 }  // namespace hypotrack::internal

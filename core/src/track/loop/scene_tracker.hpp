@@ -60,7 +60,9 @@ class SceneTracker {
   std::vector<std::string> take_start_notes() { return loop_.given.take_notes(); }
 
   /// Returns the tiles that the search of `frame`, the last one tracked, saw; with the highlights.
-  Observation seen(const Frame& frame) const;
+  Observation seen(const Frame& frame) const {
+    return loop_.finder.search().seen(pictures_.steadied(frame));
+  }
 
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_rig_notes() { return pictures_.take_notes(); }
@@ -92,8 +94,8 @@ class SceneTracker {
   PictureWatch pictures_;
   FrameJudge judge_;
   RecoveryPlan plan_;
-  tbb::task_arena arena_, background_arena_;  ///< of the threads that the settings allow
-  BackgroundSearch background_;               ///< ends before what it uses
+  tbb::task_arena arena_;        ///< of the threads that the settings allow
+  BackgroundSearch background_;  ///< ends before what it uses
 };
 
 }  // namespace internal
