@@ -27,32 +27,39 @@ void allow_shared_memory(Kernel* kernel, const DeviceLimits& limits) {
 class BlockMemory {
  public:
   /// Allocates what a plan for `count` hypotheses needs and enters it in the plan. `bands` blocks
-  /// per hypothesis, or those of the plan if there are more, each with `sums` numbers. Returns true
-  /// if memory of earlier plans moved.
-  bool reserve(BlockPlan& plan, std::int64_t count, int bands, int sums) {
-    bool moved = false;
+  /// per hypothesis, or those of the plan if there are more, each with `sums` numbers.
+  void reserve(BlockPlan& plan, std::int64_t count, int bands, int sums) {
     const auto hypotheses = static_cast<std::size_t>(count);
     const auto blocks = hypotheses * static_cast<std::size_t>(plan.bands);
     if (!plan.vertices_in_shared) {
-      moved = vertices_.reserve(blocks * 4 * static_cast<std::size_t>(plan.vertex_stride));
+      grow(vertices_, blocks * 4 * static_cast<std::size_t>(plan.vertex_stride));
     }
     if (plan.depth_scratch_size > 0) {
-      moved |= depth_.reserve(blocks * static_cast<std::size_t>(plan.depth_scratch_size));
+      grow(depth_, blocks * static_cast<std::size_t>(plan.depth_scratch_size));
     }
     const auto most_bands = static_cast<std::size_t>(std::max(plan.bands, bands));
-    if (most_bands > 1 && sums_.reserve(hypotheses * most_bands * static_cast<std::size_t>(sums))) {
+    if (most_bands > 1 && grow(sums_, hypotheses * most_bands * static_cast<std::size_t>(sums))) {
       static_assert(kEmptySlot == ~std::uint64_t{0});
       check(cudaMemset(sums_.data(), 0xFF, sums_.size() * sizeof(double)), "emptying memory");
       check(cudaStreamSynchronize(nullptr), "emptying memory");
-      moved = true;
     }
     plan.vertex_scratch = vertices_.data();
     plan.depth_scratch = depth_.data();
     plan.band_sums = sums_.data();
-    return moved;
   }
 
+  /// Returns a number that changes whenever memory of earlier plans moves, also in a call that
+  /// fails.
+  std::uint64_t revision() const { return revision_; }
+
  private:
+  template <class T>
+  bool grow(DeviceBuffer<T>& buffer, std::size_t size) {
+    if (size > buffer.size()) ++revision_;
+    return buffer.reserve(size);
+  }
+
+  std::uint64_t revision_ = 0;
   DeviceBuffer<float> vertices_, depth_;
   DeviceBuffer<double> sums_;
 };

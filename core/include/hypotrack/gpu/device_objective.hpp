@@ -67,7 +67,8 @@ struct SlopeLayout {
   float factor;         ///< factor on residuals and slopes: the root of the objective's weight
 };
 
-/// An objective on the GPU. All calls come from one thread and use one stream.
+/// An objective on the GPU. All calls come from one thread. Those that enqueue work with hypotheses
+/// only launch kernels, so that a CUDA graph can capture them, on any of a few streams.
 class HYPOTRACK_API DeviceObjective {
  public:
   DeviceObjective() = default;
@@ -88,8 +89,7 @@ class HYPOTRACK_API DeviceObjective {
   /// drawn for enqueue_drawn(), whose kernels see whole tiles: a pixel and its neighbours.
   virtual bool draws() const { return true; }
 
-  /// Enqueues the evaluation of a batch: posing, drawing and scoring. It only launches kernels, so
-  /// that a CUDA graph can capture it. Throws Error unless draws().
+  /// Enqueues the evaluation of a batch: posing, drawing and scoring. Throws Error unless draws().
   virtual void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream);
 
   /// Enqueues a whole search as one kernel, if the objective has one and all blocks fit on the
@@ -119,8 +119,8 @@ class HYPOTRACK_API DeviceObjective {
   virtual void enqueue_slopes(const SceneLayout& scene, const DrawnBatch& drawn,
                               const SlopeLayout& slopes, Stream stream);
 
-  /// Returns a number that changes whenever enqueue() would launch other kernels or arguments. A
-  /// captured graph is then invalid.
+  /// Returns a number that changes whenever enqueue(), or another function that enqueues work with
+  /// hypotheses, would launch other kernels or arguments. Captured graphs are then invalid.
   virtual std::uint64_t revision() const = 0;
 };
 

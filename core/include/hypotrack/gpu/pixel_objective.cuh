@@ -78,19 +78,21 @@ class PixelObjective : public DeviceObjective {
     frame_ = observation.frame;
     term_ = term;
     int width = 0, height = 0;
+    bool resized = observation.pair != rectified_;
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
-      tiles_[i] = observation.tiles[i].layout;
-      width = std::max(width, tiles_[i].width);
-      height = std::max(height, tiles_[i].height);
+      const TileLayout& tile = observation.tiles[i].layout;
+      resized |= tile.width != tiles_[i].width || tile.height != tiles_[i].height;
+      tiles_[i] = tile;
+      width = std::max(width, tile.width);
+      height = std::max(height, tile.height);
     }
-    const bool rectified = observation.pair;
-    if (width != width_ || height != height_ || rectified != rectified_) {
+    if (resized) {
       reserved_ = 0;
       ++revision_;
     }
     width_ = width;
     height_ = height;
-    rectified_ = rectified;
+    rectified_ = observation.pair;
   }
 
   void reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t count) final {
@@ -111,7 +113,7 @@ class PixelObjective : public DeviceObjective {
     drawn_bands_ = static_cast<int>(
         std::clamp<std::int64_t>(2 * limits.multiprocessors / count, 1, kMostBands));
     // A plan depends on nothing else that changes, so that a batch of an earlier size has its plan.
-    if (memory_.reserve(plan, count, drawn_bands_, Term::kSums)) ++revision_;
+    memory_.reserve(plan, count, drawn_bands_, Term::kSums);
     allow_shared(kernel_for<Term>(plan));
     plan_ = plan;
     searching_blocks_ = kUnknown;
@@ -182,7 +184,7 @@ class PixelObjective : public DeviceObjective {
     }
   }
 
-  std::uint64_t revision() const final { return revision_; }
+  std::uint64_t revision() const final { return revision_ + memory_.revision(); }
 
  protected:
   /// Enqueues the kernels that make a frame's features and returns the Term that reads them. Throws

@@ -35,7 +35,9 @@ class WorkGraph {
     check(cudaStreamEndCapture(native(stream), &captured.graph), "capturing work");
     check(cudaGraphInstantiate(&executable_, captured.graph, 0), "making a graph of captured work");
   }
-  /// Enqueues the captured work.
+  /// Returns true if nothing is captured.
+  bool empty() const { return executable_ == nullptr; }
+  /// Enqueues the captured work. Precondition: !empty().
   void launch(Stream stream) const {
     check(cudaGraphLaunch(executable_, native(stream)), "launching captured work");
   }

@@ -115,10 +115,12 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
     if (states.cols() == 0) return;
     frame_.device().use();
     use_prior(nullptr);
+    if (states.cols() > most_) reserve(states.cols());  // says how many there is room for
+    most_ = std::max(most_, states.cols());
     const int sets = frame_.cost_sets(states.cols());
     batch_.take(states, sets);
     const auto arguments = [&] {
-      return RepeatedWork::Arguments{static_cast<std::uint64_t>(states.cols()), revision(),
+      return RepeatedWork::Arguments{static_cast<std::uint64_t>(states.cols()), frame_.revision(),
                                      batch_.revision()};
     };
     if (!evaluations_.launch(arguments(), stream())) {
@@ -147,6 +149,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   std::optional<BandEnds> bands_;
   HostBatch batch_;
   RepeatedWork evaluations_;
+  Eigen::Index most_ = 0;  // states of an evaluation
   bool sum_of_squares_;
   ResidualMemory residual_memory_;
   DeviceLinearizer linearizer_{*this, frame_};

@@ -100,14 +100,29 @@ void FrameOnDevice::enqueue(BatchLayout batch) {
 }
 
 int FrameOnDevice::cost_sets(std::int64_t count) const {
-  constexpr std::int64_t kMost = 64;  // more occupy a GPU by themselves
-  const bool apart = count <= kMost && (!draws_for_terms_ || count <= drawer_.most_at_once());
+  // A multiprocessor has room for two blocks at least. So most of them go on although in every term
+  // a block of each hypothesis may wait for others (join_bands()).
+  const bool few = count * drawing_terms_ <= device_.limits().multiprocessors;
+  const bool apart = few && (!draws_for_terms_ || count <= drawer_.most_at_once());
   if (!apart || counting_terms_ < 2) return 1;
   return counting_terms_ + (draws_for_terms_ ? 1 : 0);
 }
 
-void FrameOnDevice::enqueue_apart(BatchLayout batch) {
+void FrameOnDevice::enqueue_apart(const BatchLayout& batch) {
   if (cost_sets(batch.count) == 1) return enqueue(batch);
+  try {
+    enqueue_beside(batch);
+  } catch (...) {
+    end_sides();
+    throw;
+  }
+}
+
+void FrameOnDevice::end_sides() const {
+  for (const auto& side : sides_) side->end();
+}
+
+void FrameOnDevice::enqueue_beside(BatchLayout batch) {
   batch.add = false;
   double* const costs = batch.costs;
   DrawnBatch drawn{.count = static_cast<int>(batch.count)};

@@ -17,7 +17,7 @@
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// A frame on the GPU and the terms that score its hypotheses, all on one stream.
+/// A frame on the GPU and the terms that score its hypotheses, on one stream and others beside it.
 class FrameOnDevice {
  public:
   /// All terms must have a device objective. Throws DeviceError if the GPU or the scene is
@@ -56,7 +56,9 @@ class FrameOnDevice {
   /// Enqueues all terms for a batch as enqueue() does. Terms of few hypotheses run at the same
   /// time, each with costs of its own: those of one term for all hypotheses, then those of the
   /// next; where hypotheses are drawn for several terms, there is a last set of 0.
-  void enqueue_apart(BatchLayout batch);
+  void enqueue_apart(const BatchLayout& batch);
+  /// Waits for what runs beside the stream, after an error.
+  void end_sides() const;
   /// Enqueues a whole search, which only a single term can run (DeviceCost::enqueue_search()). Sets
   /// `batch.weight`.
   bool enqueue_search(BatchLayout batch, const SwarmSearch& search);
@@ -106,6 +108,7 @@ class FrameOnDevice {
  private:
   bool draws(std::size_t term) const;
   bool has_slopes(std::size_t term) const;
+  void enqueue_beside(BatchLayout batch);
   template <class Enqueue>
   void add_up(BatchLayout& batch, const Enqueue& enqueue);
   template <class Enqueue>

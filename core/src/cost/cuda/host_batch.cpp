@@ -13,11 +13,13 @@ void HostBatch::take(const Eigen::MatrixXd& states, int cost_sets) {
   cost_sets_ = cost_sets;
   const auto count = static_cast<std::size_t>(count_ * cost_sets);
   numbers_ = static_cast<std::size_t>(states.size());
-  bool moved = points_.reserve(numbers_);
+  if (numbers_ > std::min(points_.size(), points_staging_.size()) ||
+      count > std::min(costs_.size(), costs_staging_.size()))
+    ++revision_;  // also if there is too little memory
+  points_.reserve(numbers_);
   points_staging_.reserve(numbers_);
-  moved |= costs_.reserve(count);
+  costs_.reserve(count);
   costs_staging_.reserve(count);
-  if (moved) ++revision_;
   std::copy_n(states.data(), numbers_, points_staging_.data());
 }
 

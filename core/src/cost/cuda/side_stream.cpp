@@ -25,4 +25,9 @@ void SideStream::join(Stream main) {
   check(cudaStreamWaitEvent(native(main), joined_), "waiting for an event");
 }
 
+void SideStream::end() const {
+  (void)cudaStreamSynchronize(stream_);
+  (void)cudaGetLastError();  // the work that failed has been told of
+}
+
 }  // namespace hypotrack::cuda::internal

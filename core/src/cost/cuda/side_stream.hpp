@@ -19,6 +19,8 @@ class SideStream {
   void fork(Stream main);
   /// Makes what is enqueued on `main` from now on wait for what this stream has so far.
   void join(Stream main);
+  /// Waits until all that this stream has is done, or ended by an error.
+  void end() const;
 
  private:
   cudaStream_t stream_ = nullptr;

@@ -1,6 +1,7 @@
 #include "cost/cuda/draw/tile_drawer.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "hypotrack/gpu/evaluate.cuh"
 
@@ -52,20 +53,22 @@ auto kernel_for(const BlockPlan& plan) {
 
 void TileDrawer::prepare(const DeviceObservation& observation) {
   int width = 0, height = 0;
+  bool resized = frame_ != observation.frame || pair_ != observation.pair;
+  const int views = std::exchange(view_count_, 0);
   pixels_ = 0;
-  view_count_ = 0;
   for (int v = 0; v < kMaxViews; ++v) {
     const TileLayout& tile = observation.tiles[static_cast<std::size_t>(v)].layout;
     if (tile.width == 0) break;  // the views before it are all there are
     ++view_count_;
+    resized |= tile.width != widths_[v] || tile.height != heights_[v];
     before_[v] = static_cast<int>(pixels_);
     widths_[v] = tile.width;
+    heights_[v] = tile.height;
     pixels_ += std::int64_t{tile.width} * tile.height;
     width = std::max(width, tile.width);
     height = std::max(height, tile.height);
   }
-  if (frame_ != observation.frame || width != width_ || height != height_ ||
-      pair_ != observation.pair) {
+  if (resized || views != view_count_) {
     reserved_ = 0;
     ++revision_;
   }
@@ -85,7 +88,9 @@ void TileDrawer::reserve(const SceneLayout& scene, const DeviceLimits& limits, s
   reserved_ = 0;
   limits_ = limits;
   at_once_ = std::min(most_at_once(), std::max<std::int64_t>(count, 1));
-  bool moved = depth_.reserve(static_cast<std::size_t>(at_once_ * pixels_));
+  const auto pixels = static_cast<std::size_t>(at_once_ * pixels_);
+  if (pixels > depth_.size()) ++revision_;
+  depth_.reserve(pixels);
   plan_ = plan_blocks({.scene = scene,
                        .limits = limits,
                        .count = at_once_,
@@ -93,13 +98,12 @@ void TileDrawer::reserve(const SceneLayout& scene, const DeviceLimits& limits, s
                        .tile_height = height_,
                        .tiles_at_once = pair_ ? 2 : 1,
                        .sums = 1});
-  moved |= memory_.reserve(plan_, at_once_, 1, 1);
+  memory_.reserve(plan_, at_once_, 1, 1);
   if (pair_) {
     allow_shared_memory(kernel_for<true>(plan_), limits);
   } else {
     allow_shared_memory(kernel_for<false>(plan_), limits);
   }
-  if (moved) ++revision_;
   reserved_ = count;
 }
 

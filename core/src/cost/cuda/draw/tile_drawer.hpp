@@ -32,13 +32,13 @@ class TileDrawer {
                      std::int64_t count, Stream stream);
 
   /// See DeviceObjective::revision().
-  std::uint64_t revision() const { return revision_; }
+  std::uint64_t revision() const { return revision_ + memory_.revision(); }
 
  private:
   const FrameLayout* frame_ = nullptr;
   bool pair_ = false;
   int view_count_ = 0, width_ = 0, height_ = 0;  // of the widest and of the highest view
-  int before_[kMaxViews] = {}, widths_[kMaxViews] = {};
+  int before_[kMaxViews] = {}, widths_[kMaxViews] = {}, heights_[kMaxViews] = {};
   std::int64_t pixels_ = 0;
   std::int64_t reserved_ = 0, at_once_ = 0;
   std::uint64_t revision_ = 0;

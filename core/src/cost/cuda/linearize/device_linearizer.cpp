@@ -105,6 +105,16 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
 }
 
 void DeviceLinearizer::enqueue(int points, int columns) {
+  try {
+    enqueue_all(points, columns);
+  } catch (...) {
+    frame_.end_sides();
+    for (const SideStream* side : {&posing_, &differences_}) side->end();
+    throw;
+  }
+}
+
+void DeviceLinearizer::enqueue_all(int points, int columns) {
   batch_.upload(frame_.stream());
   to_device(numbers_, numbers_staging_, size(std::int64_t{points} * (columns + 1)),
             frame_.stream());
@@ -131,33 +141,30 @@ Eigen::VectorXd DeviceLinearizer::per_step(int k, int columns) const {
 void DeviceLinearizer::reserve(std::int64_t points, int columns) {
   const std::int64_t rows = frame_.difference_residual_count();
   const std::int64_t drawn_each = frame_.draws_differences() ? columns + 2 : 1;
-  bool moves = false;
   frame_.reserve(points * drawn_each, [&](std::int64_t hypotheses) {
     const std::int64_t count = std::max<std::int64_t>(hypotheses / drawn_each, 1);
     const std::int64_t pixels = count * frame_.pixels();
     if (frame_.sloped_terms() > 0) {
       const int sets = frame_.observation().pair ? 1 : frame_.view_count();
-      moves |= records_.reserve(size(count * record_floats(frame_.scene(), sets, columns)));
-      moves |= slopes_.reserve(size(pixels * frame_.sloped_terms()));
-      moves |= owners_.reserve(size(pixels));
-      moves |= row_parts_.reserve(
-          size(count * row_numbers(columns) * row_blocks(frame_.pixels(), count)));
+      grow(records_, count * record_floats(frame_.scene(), sets, columns));
+      grow(slopes_, pixels * frame_.sloped_terms());
+      grow(owners_, pixels);
+      grow(row_parts_, count * row_numbers(columns) * row_blocks(frame_.pixels(), count));
     }
-    moves |= residuals_.reserve(size(count * rows * (columns + 1)));
-    moves |= gram_parts_.reserve(size(count * gram_numbers(columns) * gram_blocks(rows)));
+    grow(residuals_, count * rows * (columns + 1));
+    grow(gram_parts_, count * gram_numbers(columns) * gram_blocks(rows));
   });
-  moves |= row_sums_.reserve(size(points * row_numbers(columns)));
-  row_sums_staging_.reserve(size(points * row_numbers(columns)));
-  moves |= gram_sums_.reserve(size(points * gram_numbers(columns)));
-  gram_sums_staging_.reserve(size(points * gram_numbers(columns)));
-  if (moves) ++revision_;
+  grow(row_sums_, points * row_numbers(columns));
+  grow(row_sums_staging_, points * row_numbers(columns));
+  grow(gram_sums_, points * gram_numbers(columns));
+  grow(gram_sums_staging_, points * gram_numbers(columns));
 }
 
 void DeviceLinearizer::take(std::span<const Neighbourhood> points,
                             const std::vector<std::vector<Eigen::Index>>& moved, int columns) {
   const auto count = static_cast<Eigen::Index>(points.size()), side = Eigen::Index{columns} + 1;
-  if (numbers_.reserve(size(count * side))) ++revision_;
-  numbers_staging_.reserve(size(count * side));
+  grow(numbers_, count * side);
+  grow(numbers_staging_, count * side);
   Eigen::MatrixXd states(points[0].points.rows(), count * (side + 1));
   for (Eigen::Index k = 0; k < count; ++k) {
     const Neighbourhood& at = points[static_cast<std::size_t>(k)];

@@ -37,10 +37,17 @@ class DeviceLinearizer {
   /// Takes for upload the drawn states of all points, then the states of each.
   void take(std::span<const Neighbourhood> points,
             const std::vector<std::vector<Eigen::Index>>& moved, int columns);
-  /// Enqueues all work for points that were taken.
+  /// Enqueues all work for points that were taken. If it throws, nothing goes on beside the stream.
   void enqueue(int points, int columns);
+  void enqueue_all(int points, int columns);
   void enqueue_rows(int points, int columns);
   void enqueue_differences(int points, int columns);
+  /// Makes room for so many objects. Counts the revision if memory moves, or would.
+  template <class Buffer>
+  void grow(Buffer& buffer, std::int64_t size) {
+    if (static_cast<std::size_t>(size) > buffer.size()) ++revision_;
+    buffer.reserve(static_cast<std::size_t>(size));
+  }
   /// Returns the reciprocal steps of point `k`; 0 where a neighbour's cost is infinite.
   Eigen::VectorXd per_step(int k, int columns) const;
 
