@@ -4,7 +4,9 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace hypotrack::internal {
@@ -30,6 +32,21 @@ TEST(ReadyThreads, DoEveryWorkOnce) {
   expect_all_done();  // they are asleep
   const ReadyThreads::Awake again(&threads);
   expect_all_done();
+}
+
+TEST(ReadyThreads, WorkAtTheSameTime) {
+  constexpr auto kLongest = std::chrono::seconds(20);  // of a machine that is busy
+  ReadyThreads threads(2);
+  const ReadyThreads::Awake awake(&threads);
+  std::atomic<int> met = 0;
+  const auto meet = [&] {
+    ++met;
+    const auto begin = std::chrono::steady_clock::now();
+    while (met < 3 && std::chrono::steady_clock::now() - begin < kLongest)
+      std::this_thread::yield();
+    EXPECT_EQ(met, 3);
+  };
+  run_together({meet, meet, meet});
 }
 
 TEST(ReadyThreads, AreNotNeeded) {

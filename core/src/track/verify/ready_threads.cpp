@@ -3,6 +3,8 @@
 #include <oneapi/tbb/parallel_for_each.h>
 
 #include <algorithm>
+#include <cassert>
+#include <system_error>
 #include <utility>
 
 namespace hypotrack::internal {
@@ -21,7 +23,10 @@ void pause() {
 }  // namespace
 
 ReadyThreads::ReadyThreads(int count) {
-  for (int i = 0; i < count; ++i) threads_.emplace_back([this] { live(); });
+  try {
+    for (int i = 0; i < count; ++i) threads_.emplace_back([this] { live(); });
+  } catch (const std::system_error&) {  // a limit of threads: the others help, or none
+  }
 }
 
 ReadyThreads::~ReadyThreads() {
@@ -65,6 +70,7 @@ bool ReadyThreads::help() {
 }
 
 void ReadyThreads::run(std::initializer_list<Work> works) {
+  assert(works.size() <= kMostWorks);
   std::ranges::transform(works, works_.begin(), [](const Work& work) { return &work; });
   left_.store(static_cast<int>(works.size()), std::memory_order_relaxed);
   const std::uint64_t turn = (ticket_.load(std::memory_order_relaxed) >> 32) + 1;

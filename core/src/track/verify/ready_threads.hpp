@@ -20,6 +20,7 @@ class ReadyThreads {
  public:
   using Work = std::function<void()>;
 
+  /// Begins so many threads, or as many as the system allows.
   explicit ReadyThreads(int count);
   ~ReadyThreads();
   ReadyThreads(const ReadyThreads&) = delete;
