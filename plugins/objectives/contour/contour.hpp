@@ -24,9 +24,8 @@ namespace hypotrack::contour {
 ///
 ///   mean over views, sum over models and lines, of (d / sigma)^2 / (1 + (d / reach)^2),
 ///
-/// with d the distance in pixels of the outline's point from the line's mean (line_term.hpp). With
-/// `depth_sigma_mm`, points of the surface are pulled to the planes of measured ones
-/// (depth_term.hpp).
+/// with d the distance in pixels of the outline's point from the line's mean (terms.hpp). With
+/// `depth_sigma_mm`, points of the surface are pulled to the planes of measured ones.
 ///
 /// Colours are learned along the outlines of the start, and then of every answer. Models with
 /// joints cost nothing. Lines of a model that another one hides are left out.

@@ -25,7 +25,7 @@ namespace hypotrack::stereo_patch {
 /// interpolated in depth. In a rectified pair the volume is over disparities; other pairs are
 /// resampled by the general projection.
 ///
-/// With full_at_difference, s is multiplied by a weight c in 0..1 of the frame (share.hpp);
+/// With full_at_difference, s is multiplied by a weight c in 0..1 of the frame (share_of());
 /// otherwise c is 1.
 ///
 /// A hypothesis without a pixel that both views see costs 0, the worst cost.

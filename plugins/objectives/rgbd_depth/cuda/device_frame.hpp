@@ -15,7 +15,7 @@ class DeviceFrame {
  public:
   explicit DeviceFrame(const Settings& settings) : settings_(settings) {}
 
-  /// Enqueues the computation for a frame that was checked (checks.hpp).
+  /// Enqueues the computation for a frame that passed check().
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
   /// Returns device memory: foreground-inl.hpp per pixel; null for a view without depth.

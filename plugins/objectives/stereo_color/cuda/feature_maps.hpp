@@ -12,7 +12,7 @@ class FeatureMaps {
  public:
   explicit FeatureMaps(const Settings& settings) : settings_(settings) {}
 
-  /// Enqueues the computation for the first two tiles, which must have been checked (checks.hpp).
+  /// Enqueues the computation for the first two tiles, which must have passed check().
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
   /// Returns device memory: the features of view 0 or 1, row by row without gaps. The address
