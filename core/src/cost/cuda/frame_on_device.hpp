@@ -57,7 +57,7 @@ class FrameOnDevice {
   /// time, each with costs of its own: those of one term for all hypotheses, then those of the
   /// next; where hypotheses are drawn for several terms, there is a last set of 0.
   void enqueue_apart(const BatchLayout& batch);
-  /// Waits for what runs beside the stream, after an error.
+  /// Waits for the work beside the stream, after an error.
   void end_sides() const;
   /// Enqueues a whole search, which only a single term can run (DeviceCost::enqueue_search()). Sets
   /// `batch.weight`.
@@ -70,7 +70,7 @@ class FrameOnDevice {
   /// Draws a batch of at most drawn_at_once() hypotheses. Sets their costs to 0.
   DrawnBatch draw(const BatchLayout& batch);
   /// Enqueues beside the stream the slopes of the terms that have them: sloped_terms() x pixels()
-  /// per drawn hypothesis. What is enqueued after join_slopes() waits for them.
+  /// per drawn hypothesis. Work enqueued after join_slopes() waits for them.
   void fork_slopes(const DrawnBatch& drawn, PixelSlope* slopes);
   void join_slopes();
   /// Enqueues the residuals of the terms without slopes: difference_residual_count() per

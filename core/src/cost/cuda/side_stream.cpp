@@ -27,7 +27,7 @@ void SideStream::join(Stream main) {
 
 void SideStream::end() const {
   (void)cudaStreamSynchronize(stream_);
-  (void)cudaGetLastError();  // the work that failed has been told of
+  (void)cudaGetLastError();  // its error was thrown already
 }
 
 }  // namespace hypotrack::cuda::internal

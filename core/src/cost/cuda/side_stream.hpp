@@ -19,7 +19,7 @@ class SideStream {
   void fork(Stream main);
   /// Makes what is enqueued on `main` from now on wait for what this stream has so far.
   void join(Stream main);
-  /// Waits until all that this stream has is done, or ended by an error.
+  /// Waits until all work of this stream is done, or ended by an error.
   void end() const;
 
  private:

@@ -17,7 +17,7 @@ class BackgroundSearch {
  public:
   using Search = std::function<Candidate(const Frame&)>;
 
-  /// `threads`: those that a search may use.
+  /// Lets a search use so many threads.
   explicit BackgroundSearch(int threads) : arena_(threads) {}
   ~BackgroundSearch() { cancel(); }
   BackgroundSearch(const BackgroundSearch&) = delete;

@@ -114,7 +114,7 @@ bool ModelTrack::take_check(bool is_elsewhere) {
 bool ModelTrack::is_time_to_search_all(bool is_detectable) {
   constexpr unsigned kSecond = 4;
   const unsigned count = ++searches_;
-  // What a detector has not seen at first has hardly come yet.
+  // A model that no detector sees at first has hardly come yet.
   if (count == kSecond && is_detectable && is_unknown(phase_)) return false;
   return std::has_single_bit(count) && std::countr_zero(count) % 2 == 0;
 }

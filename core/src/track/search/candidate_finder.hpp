@@ -148,8 +148,8 @@ class CandidateFinder {
   /// does, or did before.
   bool look_for_occluders(const Frame& frame, const Eigen::VectorXd& state,
                           const ModelFlags& models);
-  /// Returns threads that help to judge what a GPU found, whose search let all others fall asleep;
-  /// null: there are no cores for that.
+  /// Returns threads that help to judge poses found on a GPU: its search lets all others fall
+  /// asleep. Null: there are no cores for them.
   ReadyThreads* ready_threads();
   /// Searches a frame from the cheapest of several starts.
   Candidate searched(const Frame& frame, const Eigen::MatrixXd& starts, const Budget& budget,

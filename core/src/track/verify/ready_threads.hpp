@@ -14,8 +14,8 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Threads that wait awake for works which are over sooner than a sleeping thread would begin them,
-/// as the pieces of judging a pose. While awake they occupy cores, which must be idle otherwise.
+/// Threads that wait awake for short works, such as the pieces of judging a pose: a sleeping thread
+/// would begin too late. While awake they occupy cores, which must be idle otherwise.
 class ReadyThreads {
  public:
   using Work = std::function<void()>;
