@@ -103,7 +103,7 @@ class Cost {
   /// every model's quaternion and applies to that of `rotations_from`. This cost owns the result.
   virtual cuda::DeviceCost* device(const Eigen::VectorXd* rotations_from = nullptr);
 
-  /// Returns true if searches leave most cores idle, as a GPU draws and scores.
+  /// Returns true if CUDA draws and scores, so that searches leave most cores idle.
   virtual bool is_on_gpu() const { return false; }
 
   /// Describes the backend: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.

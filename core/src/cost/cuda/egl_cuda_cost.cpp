@@ -25,7 +25,6 @@ class EglCudaCost final : public Cost {
       : Cost(scene, terms), frame_(scene, terms, settings), drawer_(std::move(drawer)) {}
   ~EglCudaCost() override { cudaStreamSynchronize(native(frame_.stream())); }
 
-  bool is_on_gpu() const override { return true; }
   std::string backend() const override {
     return fmt::format("egl ({}, CUDA interop)", drawer_->context().device());
   }

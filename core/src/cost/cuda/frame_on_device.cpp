@@ -16,7 +16,7 @@ FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm
   for (const ObjectiveTerm& term : terms_) {
     objectives_.push_back(term.objective->on_device());
     sides_.push_back(std::make_unique<SideStream>());
-    counting_terms_ += term.weight != 0 ? 1 : 0;
+    weighted_terms_ += term.weight != 0 ? 1 : 0;
   }
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     drawing_terms_ += draws(i) ? 1 : 0;
@@ -104,8 +104,8 @@ int FrameOnDevice::cost_sets(std::int64_t count) const {
   // a block of each hypothesis may wait for others (join_bands()).
   const bool few = count * drawing_terms_ <= device_.limits().multiprocessors;
   const bool apart = few && (!draws_for_terms_ || count <= drawer_.most_at_once());
-  if (!apart || counting_terms_ < 2) return 1;
-  return counting_terms_ + (draws_for_terms_ ? 1 : 0);
+  if (!apart || weighted_terms_ < 2) return 1;
+  return weighted_terms_ + (draws_for_terms_ ? 1 : 0);
 }
 
 void FrameOnDevice::enqueue_apart(const BatchLayout& batch) {
@@ -142,7 +142,7 @@ void FrameOnDevice::enqueue_beside(BatchLayout batch) {
   };
   enqueue_terms(false);
   if (draws_for_terms_) {
-    batch.costs = costs + batch.count * counting_terms_;  // drawing sets them to 0
+    batch.costs = costs + batch.count * weighted_terms_;  // drawing sets them to 0
     drawn = drawer_.enqueue(scene_.layout(), batch, 0, batch.count, stream());
   }
   enqueue_terms(true);

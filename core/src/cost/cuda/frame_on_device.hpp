@@ -54,8 +54,8 @@ class FrameOnDevice {
   /// Returns how many costs enqueue_apart() gives each of so many hypotheses.
   int cost_sets(std::int64_t count) const;
   /// Enqueues all terms for a batch as enqueue() does. Terms of few hypotheses run at the same
-  /// time, each with costs of its own: those of one term for all hypotheses, then those of the
-  /// next; where hypotheses are drawn for several terms, there is a last set of 0.
+  /// time, each with a set of costs of its own, in their order. A last set is 0 where hypotheses
+  /// are drawn for several terms.
   void enqueue_apart(const BatchLayout& batch);
   /// Waits for the work beside the stream, after an error.
   void end_sides() const;
@@ -120,7 +120,7 @@ class FrameOnDevice {
   std::vector<ObjectiveTerm> terms_;
   std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
   std::vector<std::unique_ptr<SideStream>> sides_;            // likewise
-  int drawing_terms_ = 0, sloped_terms_ = 0, counting_terms_ = 0;
+  int drawing_terms_ = 0, sloped_terms_ = 0, weighted_terms_ = 0;
   bool draws_for_terms_ = false;  // because several need it, or one does not draw by itself
   TileUpload upload_;
   TileDrawer drawer_;
