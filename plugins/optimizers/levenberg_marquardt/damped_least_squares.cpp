@@ -98,31 +98,24 @@ Eigen::Index DampedLeastSquares::take(const NormalEquations& equations, const Ne
   return leaves ? best : -1;
 }
 
-std::vector<Eigen::Index> DampedLeastSquares::free_dimensions() const {
+Eigen::VectorXd DampedLeastSquares::step(double damping) const {
+  const Eigen::Index d = x_.size();
+  const Eigen::VectorXd diagonal = equations_.a.diagonal();
+  const double firm = params_.mean_share * diagonal.mean();
+  // Dimensions stay if they are at a bound and want to leave, or if nothing depends on them.
   std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < x_.size(); ++i) {
+  for (Eigen::Index i = 0; i < d; ++i) {
     const bool held = blocked_by_bound(x_[i], region_.lower[i], region_.upper[i], equations_.g[i]);
-    if (!held && equations_.a(i, i) > 0) free.push_back(i);
+    if (!held && diagonal[i] > 0) free.push_back(i);
   }
-  return free;
-}
-
-Eigen::MatrixXd DampedLeastSquares::steps(const Eigen::VectorXd& dampings) const {
-  const std::vector<Eigen::Index> free = free_dimensions();
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x_.size(), dampings.size());
-  if (free.empty()) return out;
-  const double firm = params_.mean_share * equations_.a.diagonal().mean();
-  const Eigen::MatrixXd undamped = equations_.a(free, free);
-  const Eigen::VectorXd downhill = -equations_.g(free);
-  Eigen::MatrixXd a;
-  for (Eigen::Index i = 0; i < dampings.size(); ++i) {
-    a = undamped;
-    damp(a, dampings[i], firm);
-    const Eigen::LDLT<Eigen::Ref<Eigen::MatrixXd>> factors(a);  // in place
-    const Eigen::VectorXd solved = factors.solve(downhill);
-    if (solved.allFinite()) out(free, i) = solved.cwiseMax(-1.0).cwiseMin(1.0);
-  }
-  return out;
+  Eigen::VectorXd dx = Eigen::VectorXd::Zero(d);
+  if (free.empty()) return dx;
+  Eigen::MatrixXd a = equations_.a(free, free);
+  damp(a, damping, firm);
+  const Eigen::VectorXd solved = a.ldlt().solve(-equations_.g(free));
+  if (!solved.allFinite()) return dx;
+  dx(free) = solved.cwiseMax(-1.0).cwiseMin(1.0);
+  return dx;
 }
 
 void DampedLeastSquares::want_trials(int round) {
@@ -130,12 +123,12 @@ void DampedLeastSquares::want_trials(int round) {
   wants_ = Wants::costs;
   round_ = round;
   lowest_ = damping_.value() * std::pow(params_.damping_factor, round == 0 ? -(trials / 2) : 0);
-  Eigen::VectorXd dampings(trials);
-  for (Eigen::Index i = 0; i < trials; ++i)
-    dampings[i] = lowest_ * std::pow(params_.damping_factor, static_cast<double>(i));
-  points_ = steps(dampings);
-  for (auto point : points_.colwise())
-    point = within_bounds(x_ + point.cwiseProduct(region_.spread), region_);
+  points_.resize(x_.size(), trials);
+  for (Eigen::Index i = 0; i < trials; ++i) {
+    const Eigen::VectorXd dx =
+        step(lowest_ * std::pow(params_.damping_factor, static_cast<double>(i)));
+    points_.col(i) = within_bounds(x_ + dx.cwiseProduct(region_.spread), region_);
+  }
 }
 
 void DampedLeastSquares::end_of_steps(bool gained) {

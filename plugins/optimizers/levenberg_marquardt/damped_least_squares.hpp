@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <vector>
 
 #include "hypotrack/plugin/linearization.hpp"
 #include "hypotrack/plugin/numbers.hpp"
@@ -49,11 +48,7 @@ class DampedLeastSquares {
 
  private:
   std::int64_t remaining() const { return evaluations_ - best_.result().evaluations; }
-  /// Returns the dimensions that move: not those at a bound that want to leave, nor those that
-  /// nothing depends on.
-  std::vector<Eigen::Index> free_dimensions() const;
-  /// Returns the steps of some dampings, one per column.
-  Eigen::MatrixXd steps(const Eigen::VectorXd& dampings) const;
+  Eigen::VectorXd step(double damping) const;
   void move_to(Eigen::Index point, const Eigen::VectorXd& costs);
   /// Returns the evaluations that the next equations take.
   std::int64_t price() const;
