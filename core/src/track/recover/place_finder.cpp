@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <opencv2/core/hal/intrin.hpp>
 #include <opencv2/imgproc.hpp>
 #include <span>
@@ -34,13 +33,10 @@ struct ReducedView {
 
 namespace {
 
-constexpr int kWidth = 240;  // approximate width of a reduced picture
-constexpr int kStep = 3;     // pixels of it between the points of the sweep
-constexpr int kDepths = 20;  // planes, evenly spaced in disparity
-constexpr std::size_t kMostSorted = 2000;
-constexpr double kLeast = 0.2;        // share of the model's colours worth a comparison
-constexpr double kUnexplained = 0.4;  // least share of a place's foreground that other places leave
-                                      // unexplained
+constexpr int kWidth = 240;     // approximate width of a reduced picture
+constexpr int kStep = 3;        // pixels of it between the points of the sweep
+constexpr int kDepths = 20;     // planes, evenly spaced in disparity
+constexpr double kLeast = 0.2;  // share of the model's colours worth a comparison
 
 /// Adds bytes to sums.
 void add(const std::uint8_t* bytes, std::span<std::uint16_t> sums) {
@@ -141,44 +137,11 @@ bool patch_of(const Camera& camera, int by, const Eigen::Vector3d& center, doubl
   return true;
 }
 
-/// Computes the correlation of two views' grey values over patches, each point weighted by its
-/// foreground probability.
-double foreground_correlation(const ReducedView& a, const Patch& at, const ReducedView& b,
-                              const Patch& there) {
-  constexpr int kHalf = 10;
-  constexpr double kNoise = 2;  // standard deviation of grey values that counts as noise
-  const auto value = [](const cv::Mat1f& picture, double x, double y, double& out) {
-    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-    if (x0 < 0 || y0 < 0 || x0 + 1 >= picture.cols || y0 + 1 >= picture.rows) return false;
-    const double fx = x - x0, fy = y - y0;
-    out = (1 - fy) * ((1 - fx) * double{picture(y0, x0)} + fx * double{picture(y0, x0 + 1)}) +
-          fy * ((1 - fx) * double{picture(y0 + 1, x0)} + fx * double{picture(y0 + 1, x0 + 1)});
-    return true;
-  };
-  double sum = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-  for (int v = -kHalf; v <= kHalf; ++v)
-    for (int u = -kHalf; u <= kHalf; ++u) {
-      const double du = u / double{kHalf}, dv = v / double{kHalf};
-      double p = 0, q = 0, w = 0;
-      const double x = at.x + du * at.r, y = at.y + dv * at.r;
-      if (!value(a.gray, x, y, p) || !value(a.probability, x, y, w) ||
-          !value(b.gray, there.x + du * there.r, there.y + dv * there.r, q))
-        continue;
-      sum += w, sa += w * p, sb += w * q, saa += w * p * p, sbb += w * q * q, sab += w * p * q;
-    }
-  if (!(sum > kHalf * kHalf * 0.2)) return 0;
-  const double va = saa / sum - sa * sa / sum / sum + kNoise * kNoise;
-  const double vb = sbb / sum - sb * sb / sum / sum + kNoise * kNoise;
-  return (sab / sum - sa * sb / sum / sum) / std::sqrt(va * vb);
-}
-
 }  // namespace
 
 PlaceFinder::PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest,
                          double farthest)
-    : cameras_(cameras),
-      radius_(radius),
-      inverse_step_((1 / nearest - 1 / farthest) / (kDepths - 1.0)) {
+    : cameras_(cameras), radius_(radius) {
   if (cameras.size() < 2) return;
   for (std::size_t i = 0; i < 2; ++i)
     reductions_[i] = std::max(1, static_cast<int>(std::lround(cameras[i].width / double{kWidth})));
@@ -245,8 +208,6 @@ std::vector<PlaceFinder::Candidate> PlaceFinder::sweep(const Views& views, doubl
     if (extent > 0) found.push_back({&point, both, extent * (0.3 + 0.7 * alike)});
   }
   seen = std::min(most[0], most[1]);
-  std::ranges::stable_sort(found, std::greater<>(), &Candidate::score);
-  if (found.size() > kMostSorted) found.resize(kMostSorted);
   return found;
 }
 
@@ -265,65 +226,13 @@ Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, con
       const Window &a = one.point->windows[0], &b = one.point->windows[1];
       const double left =
           std::min(views[0].mean(a.x, a.y, a.r), views[1].mean(b.x, b.y, b.r)) / one.share;
-      if (left > kUnexplained && one.score * left > best.score)
+      if (one.score * left > best.score)
         best = {one.point->center.cast<double>(), one.score * left};
     }
     if (best.score == 0) break;
-    best.center = at_best_depth(views, best.center);
-    best.points = points_around(views[0], best.center);
     out.best.push_back(best);
     for (std::size_t i = 0; i < 2; ++i) explain(views[i], i, best.center);
   }
-  return out;
-}
-
-Eigen::Vector3d PlaceFinder::at_best_depth(const Views& views,
-                                           const Eigen::Vector3d& center) const {
-  constexpr int kEachWay = 12;
-  const Camera& first = cameras_[0];
-  const Eigen::Vector3d ray = first.camera_from_world * center;
-  const double step = inverse_step_ / 6;
-  Eigen::Vector3d best = center;
-  double most = 0;
-  for (int k = -kEachWay; k <= kEachWay; ++k) {
-    const double inverse = 1 / ray.z() + k * step;
-    if (!(inverse > 0)) continue;
-    const Eigen::Vector3d there =
-        first.camera_from_world.inverse() * Eigen::Vector3d(ray / (ray.z() * inverse));
-    Patch a, b;
-    if (!patch_of(first, reductions_[0], there, radius_, a) ||
-        !patch_of(cameras_[1], reductions_[1], there, radius_, b))
-      continue;
-    const double alike = foreground_correlation(views[0], a, views[1], b);
-    if (alike > most) most = alike, best = there;
-  }
-  return best;
-}
-
-std::vector<Eigen::Vector3d> PlaceFinder::points_around(const ReducedView& first,
-                                                        const Eigen::Vector3d& center) const {
-  constexpr double kWider = 1.6;  // than the window of a model
-  constexpr double kCount = 60;
-  const Camera& camera = cameras_[0];
-  Patch at;
-  if (!patch_of(camera, reductions_[0], center, kWider * radius_, at)) return {};
-  const cv::Rect window = cv::Rect(cvRound(at.x - at.r), cvRound(at.y - at.r),
-                                   cvRound(2 * at.r) + 1, cvRound(2 * at.r) + 1) &
-                          cv::Rect(0, 0, first.color.cols, first.color.rows);
-  if (window.empty()) return {};
-  const double sum = cv::sum(first.probability(window))[0], every = sum / kCount;
-  const Eigen::Vector3d middle = camera.camera_from_world * center;
-  const double pixel = reductions_[0] * middle.z() / camera.fx;  // metres
-  std::vector<Eigen::Vector3d> out;
-  double left = every / 2;
-  for (int y = window.y; y < window.y + window.height; ++y)
-    for (int x = window.x; x < window.x + window.width; ++x) {
-      left -= double{first.probability(y, x)};
-      if (!(left < 0)) continue;
-      left += every;
-      const Eigen::Vector3d beside(pixel * (x - at.x), pixel * (y - at.y), 0);
-      out.push_back(camera.camera_from_world.inverse() * (middle + beside));
-    }
   return out;
 }
 

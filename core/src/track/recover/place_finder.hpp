@@ -18,8 +18,6 @@ inline namespace HYPOTRACK_EXPORTED internal {
 struct Place {
   Eigen::Vector3d center;  ///< in the world, metres
   double score = 0;        ///< larger is likelier; comparable within one frame
-  /// Points at the depth of the place, over the pixels with the model's colours around it.
-  std::vector<Eigen::Vector3d> points = {};
 };
 
 struct ReducedView;
@@ -69,19 +67,13 @@ class PlaceFinder {
   };
   using Views = std::array<ReducedView, 2>;
 
-  /// Scores the sample points, best first. Sets `seen` to Places::seen.
+  /// Scores the sample points. Sets `seen` to Places::seen.
   std::vector<Candidate> sweep(const Views& views, double& seen) const;
-  /// Returns the point on the first camera's ray at which both views agree best.
-  Eigen::Vector3d at_best_depth(const Views& views, const Eigen::Vector3d& center) const;
-  /// Returns Place::points of a place.
-  std::vector<Eigen::Vector3d> points_around(const ReducedView& first,
-                                             const Eigen::Vector3d& center) const;
   /// Removes from a view the foreground that a model at a place would explain.
   void explain(ReducedView& view, std::size_t i, const Eigen::Vector3d& center) const;
 
   std::vector<Camera> cameras_;
   double radius_;
-  double inverse_step_;  ///< step of 1/z between the planes of the sweep
   std::vector<Point> points_;
   int reductions_[2] = {1, 1};
 };

@@ -141,13 +141,8 @@ Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
         posed_landmarks(*item_.model, {one.data(), static_cast<std::size_t>(dimension)})
             .rowwise()
             .mean();
-    const bool elsewhere = !guess.points.empty() && uniform(random) < 0.5;
-    const auto point =
-        static_cast<std::size_t>(uniform(random) * static_cast<double>(guess.points.size()));
-    const Eigen::Vector3d& center =
-        elsewhere ? guess.points[std::min(point, guess.points.size() - 1)] : guess.center;
     one.head<3>() =
-        center - at + Eigen::Vector3d(scatter(random), scatter(random), 2 * scatter(random));
+        guess.center - at + Eigen::Vector3d(scatter(random), scatter(random), 2 * scatter(random));
     out.col(i) = one;
   }
   return out;

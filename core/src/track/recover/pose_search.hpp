@@ -31,8 +31,6 @@ struct PoseGuess {
   double rotation = 0;     ///< standard deviation of their rotations, radians
   /// Standard deviation of the hypotheses' centres, metres; twice that in depth.
   double scatter = 0.012;
-  /// Centres for half of the hypotheses, instead of `center`; empty: none.
-  std::vector<Eigen::Vector3d> points = {};
   double covered = 0.5;  ///< largest share of the model that others may hide
   bool centred = false;  ///< looks at a tile around `center`, not around the first hypothesis
 };

@@ -156,7 +156,6 @@ std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
                      .near_share = is_known ? kNearPlace : 0,
                      .rotation = turn,
                      .scatter = is_known ? kPlaceScatter : kUnknownScatter,
-                     .points = place.points,
                      .centred = !is_known});
   searched.end_frame();
   return out;
