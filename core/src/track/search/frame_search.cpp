@@ -213,20 +213,12 @@ Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
 }
 
 Found FrameSearch::settled(const Eigen::VectorXd& start, const Budget& budget, std::uint64_t seed) {
-  constexpr int kMost = 4;
-  constexpr double kGain = 0.02;  // least relative gain of another search
-  Found found{start, std::numeric_limits<double>::infinity(), 0};
-  Budget one = budget;
-  for (int k = 0; k < kMost; ++k) {
-    // A later search needs its fallback stage only where it gets worse.
-    if (k > 0) one.usual_cost = found.cost;
-    Found next =
-        from(found.state, one, std::nullopt, seed_of_part(seed, static_cast<std::uint32_t>(k)));
-    next.evaluations += found.evaluations;
-    const bool settles = !(found.cost - next.cost > kGain * std::abs(next.cost));
-    found = std::move(next);
-    if (settles && k > 0) break;
-  }
+  const Found first = from(start, budget, std::nullopt, seed_of_part(seed, 0));
+  // The second search needs its fallback stage only where it gets worse.
+  Budget again = budget;
+  again.usual_cost = first.cost;
+  Found found = from(first.state, again, std::nullopt, seed_of_part(seed, 1));
+  found.evaluations += first.evaluations;
   return found;
 }
 
