@@ -10,8 +10,7 @@
 namespace hypotrack::internal {
 namespace {
 
-constexpr double kBlur = 2;         // pixels of a silhouette's way
-constexpr double kFromMean = 0.05;  // share of the mean diagonal that is added to each damping
+constexpr double kBlur = 2;                             // pixels of a silhouette's way
 constexpr std::array kDampings{0.1, 1.0, 10.0, 100.0};  // factors of the steps that are tried
 
 /// Spreads bound a step; finite differences are a share of them.
@@ -93,8 +92,7 @@ Eigen::MatrixXd LeastSquares::trials(const Descent& one, const NormalEquations& 
   const Eigen::VectorXd diagonal = equations.a.diagonal();
   for (std::size_t i = 0; i < kDampings.size(); ++i) {
     Eigen::MatrixXd a = equations.a;
-    a.diagonal() += one.damping.value() * kDampings[i] *
-                    (diagonal.array() + kFromMean * diagonal.mean() + 1e-9).matrix();
+    a.diagonal() += one.damping.value() * kDampings[i] * (diagonal.array() + 1e-9).matrix();
     Eigen::VectorXd step = a.ldlt().solve(-equations.g);
     step = step.cwiseMax(-region.spread).cwiseMin(region.spread);
     for (Eigen::Index j = 0; j < step.size(); ++j)
