@@ -458,8 +458,8 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
 }
 
 void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {
-  constexpr int kAtFirst = 10, kEvery = 4;  // frames
-  const bool is_time = learned_ < kAtFirst || learned_ % kEvery == 0;
+  constexpr int kEvery = 4;  // frames
+  const bool is_time = learned_ % kEvery == 0;
   if (settings_.judged && !std::isnan(best.probability()) && is_time) {
     const Eigen::VectorXd drawn = search_.drawn(best.found.state);
     if (!verifier_.verified(drawn))
