@@ -16,9 +16,8 @@ namespace {
 constexpr double kPosePadding = 0.5;  // of a hypothesis, around it
 constexpr int kFiner = 2;             // pixels of the fine tile per pixel of the coarse one
 constexpr int kFineIterations = 6;
-constexpr std::size_t kImproved = 16;     // most poses that are improved limb by limb
-constexpr std::size_t kFineImproved = 4;  // most that are improved limb by limb there
-constexpr double kApart = 0.006;          // metres between those, mean over the landmarks
+constexpr std::size_t kImproved = 16;  // most poses that are improved limb by limb
+constexpr double kApart = 0.006;       // metres between those, mean over the landmarks
 
 /// Steps of least squares that poses take before only a share of them goes on, but no fewer than
 /// are kept.
@@ -204,9 +203,6 @@ FoundPoses PoseSearch::find(FrameSearch& search, const Frame& frame, const Eigen
   out.evaluations += std::ssize(out.poses);
   if (least_squares) {
     least_squares->refine(out.poses, kFineIterations);
-    sort_by_cost(out.poses);
-    const std::size_t improved = std::min(out.poses.size(), kFineImproved);
-    improve_limbs(*least_squares, cost, {out.poses.data(), improved});
     out.evaluations += least_squares->evaluations();
   }
   sort_by_cost(out.poses);
@@ -230,7 +226,6 @@ std::optional<Eigen::VectorXd> PoseSearch::with_better_limbs(Cost& cost,
                                                              const Eigen::VectorXd& state,
                                                              const std::vector<bool>& moving,
                                                              std::int64_t& evaluations) const {
-  constexpr double kGain = 0.01;  // least share of the cost's change that counts
   if (!cost.least_squares() || postures_.limbs().empty()) return std::nullopt;
   LeastSquares least_squares(scene_, cost, moving);
   std::vector<Refined> one{{state, 0}};
@@ -238,7 +233,7 @@ std::optional<Eigen::VectorXd> PoseSearch::with_better_limbs(Cost& cost,
   const double before = one.front().cost;
   improve_limbs(least_squares, cost, one);
   evaluations += least_squares.evaluations();
-  if (!(one.front().cost < before - kGain * std::abs(before))) return std::nullopt;
+  if (!(one.front().cost < before)) return std::nullopt;
   return one.front().state;
 }
 
