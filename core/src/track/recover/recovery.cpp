@@ -19,11 +19,9 @@ namespace {
 
 constexpr double kFinderWindow = 0.75;  // of a model's radius: what a place is looked for by
 constexpr double kSeen = 0.35;          // of the colours that a tracked model shows: it is in view
-constexpr double kPlaceRemembered = 1.0;  // seconds for which the last place is worth a look
-// Shares of hypotheses near the guess's rotation, by kind of guess.
-constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
-constexpr double kHintTurn = 0.5;  // radians
-constexpr double kHopeless = 4;    // -log odds: no search makes such a candidate right
+// Shares of hypotheses near the rotation of a pose, and near that of a place.
+constexpr double kNearPose = 0.75, kNearPlace = 0.25;
+constexpr double kHopeless = 4;  // -log odds: no search makes such a candidate right
 // Factors where a model was never seen: of the poses that are scored and refined, of those
 // searched, and of the places.
 constexpr int kUnknownEffort = 6, kUnknownSearched = 2, kUnknownPlaces = 2;
@@ -138,15 +136,15 @@ std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
   const Eigen::Vector3d was = search.center(last.state);
   std::vector<PoseGuess> out;
   if (last.hint.size() > 0)
-    out.push_back({search.center(last.hint), own(last.hint), kNearHint, kHintTurn});
+    out.push_back({search.center(last.hint), own(last.hint), kNearPose, turn});
   if (last.near_hint_only) return out;
   if (last.before.size() > 0)
     for (std::size_t m = 0; m < task.hidden.size(); ++m)
       if (m != task.model && !task.hidden[m]) out.push_back(beside(task, m));
   EmptyPlaces& searched = (task.held.empty() ? searched_ : searched_held_)[task.model];
-  if (last.seconds < kPlaceRemembered && searched.is_worth(task.frame, was))
-    out.push_back({was, own(last.state), kNearLast, turn});
   const bool is_known = std::isfinite(last.seconds);
+  if (is_known && searched.is_worth(task.frame, was))
+    out.push_back({was, own(last.state), kNearPose, turn});
   const double reach =
       is_known ? reach_within(limits, last.seconds).position + search.radius() : last.seconds;
   for (const Place& place : places.best)
