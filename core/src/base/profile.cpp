@@ -35,6 +35,10 @@ ProfiledPart::ProfiledPart(std::string_view name) : profile_(current) {
   begin_ = std::chrono::steady_clock::now();
 }
 
+void ProfiledPart::add_beside(double seconds) {
+  if (profile_) profile_->parts_[profile_->current_].beside_seconds += seconds;
+}
+
 ProfiledPart::~ProfiledPart() {
   if (!profile_) return;
   Profile::Part& part = profile_->parts_[profile_->current_];

@@ -21,6 +21,7 @@ class Profile {
     long calls = 0;
     double seconds = 0;         ///< of its scopes, its inner parts included
     double waited_seconds = 0;  ///< of them, waiting for a GPU at the ends of scopes
+    double beside_seconds = 0;  ///< work of other threads that its scopes began or waited for
   };
 
   /// Waits at the end of every scope by `wait`, which finishes a GPU's work; it may be empty.
@@ -58,6 +59,8 @@ class ProfiledPart {
  public:
   explicit ProfiledPart(std::string_view name);
   ~ProfiledPart();
+  /// Counts work that another thread did for this part.
+  void add_beside(double seconds);
   ProfiledPart(const ProfiledPart&) = delete;
   ProfiledPart& operator=(const ProfiledPart&) = delete;
 

@@ -49,7 +49,7 @@ TEST(CellMotion, TakesCellsTogetherAsOneByOne) {
       const float by = std::abs(static_cast<float>(to) - gain * static_cast<float>(from));
       if (!is_clipped(std::max(from, to)) && by > 6 * kLevel) moved.push_back(i);
     }
-    EXPECT_EQ(moved_cells(before, now), moved);
+    EXPECT_EQ(moved_cells(before, now, gain), moved);
     EXPECT_EQ(different_cells(before, now), different);
   }
 }

@@ -1,6 +1,7 @@
 #include "track/color/photometric.hpp"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <array>
 #include <cmath>
@@ -51,6 +52,28 @@ TEST(ColorSampler, TakesNothingFromViewsWithoutColour) {
     Frame frame = fixture.frame();
     frame.views[i].color = cv::Mat();
     EXPECT_EQ(sampler.take(frame, fixture.tiles->resamplers(), 1).size(), 0u);
+  }
+}
+
+TEST(PhotometricMatch, LearnsFromPicturesAsTheyWereWhateverBecomesOfThem) {
+  const MatchedBox fixture;
+  const auto learned_with = [&](int threads) {
+    PhotometricMatch match(fixture.scene, fixture.settings);
+    tbb::task_arena(threads).execute([&] {
+      constexpr int kFrames = 20;
+      for (int i = 0; i < kFrames; ++i) {
+        Frame frame = fixture.frame(1.05 + 0.01 * (i % 3), 3);
+        fixture.learn(match, frame);
+        for (View& view : frame.views) view.color.setTo(cv::Scalar(255, 0, 128));
+      }
+    });
+    return match.colors(1);
+  };
+  const ColorMap one = learned_with(1), several = learned_with(4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(one.gain[i], several.gain[i]) << i;
+    EXPECT_EQ(one.offset[i], several.offset[i]) << i;
+    EXPECT_NE(one.gain[i], 1) << i;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "track/verify/pose_verifier.hpp"
 
 #include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
 #include <limits>
@@ -115,6 +116,26 @@ TEST_F(PoseVerifierTest, FindsTheRightPlaceLikelierThanOthers) {
   const double right = verifier.verify(frame, box_.state(), {}, {true})[0];
   for (const double x : {-0.1, -0.05, 0.05, 0.1})
     EXPECT_LT(verifier.verify(frame, box_.state(x), {}, {true})[0], right) << x;
+}
+
+TEST_F(PoseVerifierTest, LearnsTheSameWithAnyNumberOfThreads) {
+  const auto learned_with = [&](int threads) {
+    PoseVerifier verifier(box_.scene, box_.cameras, judge_);
+    Measures out;
+    tbb::task_arena(threads).execute([&] {
+      for (const double x : {0.0, 0.001, -0.001, 0.002}) {
+        verifier.verify(box_.frame(), box_.state(x), {}, {true});
+        verifier.learn({true});
+      }
+      out = verifier.model(0).measured(box_.frame(), box_.state(), {});
+    });
+    return out;
+  };
+  const Measures one = learned_with(1), several = learned_with(3);
+  EXPECT_EQ(one.values, several.values);
+  EXPECT_EQ(one.usual, several.usual);
+  EXPECT_EQ(one.likeness, several.likeness);
+  EXPECT_GT(one[Measures::kInside], 0.7);
 }
 
 TEST_F(PoseVerifierTest, RemembersWhichStateItVerifiedLast) {

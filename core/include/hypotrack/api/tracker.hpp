@@ -28,7 +28,8 @@ class HYPOTRACK_API Tracker {
   /// A frame has one view per camera, in the order of cameras(). Indices and times increase from
   /// frame to frame. Throws DataError if the frame does not fit the cameras or the frames before.
   /// Throws ConfigError at the first frame if `init.from` is `truth` and it has none. A tracker
-  /// that could not start refuses all further frames.
+  /// that could not start refuses all further frames. Learning goes on after it returned, without
+  /// the pictures; a later call throws its errors.
   ///
   /// Throws Stopped within about 0.2 s once `stop` returns true. The frame then counts as missing:
   /// go on with a later one.

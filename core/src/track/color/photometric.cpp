@@ -57,17 +57,45 @@ PhotometricMatch::PhotometricMatch(const Scene& scene, const PhotometricSettings
 void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
                              const Eigen::VectorXd& state) {
   if (!settings_.match || plan.views.size() < 2) return;
-  views_.resize(plan.views.size() - 1);
-  sampler_.draw(plan.header, state);
-  for (std::size_t i = 0; i < views_.size(); ++i) {
-    learn(views_[i], sampler_.take(frame, tiles.resamplers(), i + 1, settings_.highlights), i + 1);
+  views().resize(plan.views.size() - 1);
+  if (learning_.has_thread()) keep(frame, plan);
+  const Frame* pictures = learning_.has_thread() ? &kept_ : &frame;
+  learning_.begin([this, pictures, cameras = tiles.resamplers(), header = plan.header, state] {
+    sampler_.draw(header, state);
+    for (std::size_t i = 0; i < views_.size(); ++i)
+      learn(views_[i], sampler_.take(*pictures, cameras, i + 1, settings_.highlights), i + 1);
+  });
+}
+
+void PhotometricMatch::keep(const Frame& frame, const TilePlan& plan) {
+  kept_.views.resize(frame.views.size());
+  for (std::size_t i = 0; i < kept_.views.size(); ++i) {
+    const cv::Mat& picture = frame.views[i].color;
+    cv::Mat& kept = kept_.views[i].color;
+    kept.create(picture.size(), picture.type());
+    // Samples lie up to a pixel of the tile beside its outer pixels.
+    cv::Rect part = plan.views[i].touched;
+    const int margin = 2 + std::max(part.width, part.height) / plan.header.views[i].camera.width;
+    part = (part + cv::Size(2 * margin, 2 * margin)) - cv::Point(margin, margin);
+    part &= cv::Rect({}, picture.size());
+    picture(part).copyTo(kept(part));
   }
+}
+
+std::vector<PhotometricMatch::Learned>& PhotometricMatch::views() {
+  learning_.wait();
+  return views_;
+}
+
+const std::vector<PhotometricMatch::Learned>& PhotometricMatch::views() const {
+  learning_.wait();
+  return views_;
 }
 
 void PhotometricMatch::begin(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
                              const Eigen::VectorXd& start) {
   if (!settings_.match || plan.views.size() < 2) return;
-  views_.resize(plan.views.size() - 1);
+  views().resize(plan.views.size() - 1);
   sampler_.draw(plan.header, start);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const ColorSamples samples =
@@ -118,7 +146,7 @@ void PhotometricMatch::update(Learned& learned, const ColorMap& found, double di
 }
 
 void PhotometricMatch::follow(std::span<const float> gains) {
-  for (std::size_t i = 0; i < views_.size() && i + 1 < gains.size(); ++i)
+  for (std::size_t i = 0; i < views().size() && i + 1 < gains.size(); ++i)
     for (std::size_t channel = 0; channel < 3; ++channel) {
       views_[i].map.gain[channel] *= gains[0] / gains[i + 1];
       views_[i].map.offset[channel] *= gains[0];
@@ -126,7 +154,7 @@ void PhotometricMatch::follow(std::span<const float> gains) {
 }
 
 bool PhotometricMatch::knows() const {
-  return std::ranges::any_of(views_, [](const Learned& l) { return l.frames > 0; });
+  return std::ranges::any_of(views(), [](const Learned& l) { return l.frames > 0; });
 }
 
 void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& state) {
@@ -142,8 +170,8 @@ void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& s
 }
 
 void PhotometricMatch::apply(TilePlan& plan) const {
-  for (std::size_t i = 0; i < views_.size(); ++i) plan.views[i + 1].colors = views_[i].map;
-  if (!views_.empty()) plan.header.context.color_difference = views_[0].difference;
+  for (std::size_t i = 0; i < views().size(); ++i) plan.views[i + 1].colors = views_[i].map;
+  if (!views().empty()) plan.header.context.color_difference = views_[0].difference;
 }
 
 }  // namespace hypotrack::internal

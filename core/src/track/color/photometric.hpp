@@ -10,6 +10,7 @@
 #include "tile/tiles.hpp"
 #include "track/color/color_samples.hpp"
 #include "track/color/highlights.hpp"
+#include "track/side_work.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -52,7 +53,8 @@ class PhotometricMatch {
 
   /// Updates the maps from a frame with the scene posed in a normalised state. `plan` must be of
   /// that frame. Maps stay as they are where a frame teaches nothing (fit_color_map()). Does
-  /// nothing with one view or with match off.
+  /// nothing with one view or with match off. It works beside what the caller does next, without
+  /// the frame; errors are thrown where the maps are used. The tile maker must outlive that.
   void learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
              const Eigen::VectorXd& state);
 
@@ -60,10 +62,10 @@ class PhotometricMatch {
   /// learn it.
   void follow(std::span<const float> gains);
 
-  void forget() { views_.clear(); }
+  void forget() { views().clear(); }
   /// Returns the map of a view's colours to the first's (view from 1 on); identity if unknown.
   ColorMap colors(std::size_t view) const {
-    return view <= views_.size() ? views_[view - 1].map : ColorMap{};
+    return view <= views().size() ? views()[view - 1].map : ColorMap{};
   }
   /// Returns whether anything was learned from a pose.
   bool knows() const;
@@ -81,6 +83,11 @@ class PhotometricMatch {
     int frames = 0;
     Highlights highlights;
   };
+  /// Keeps the parts of a frame's pictures that tiles show: the caller may change the frame.
+  void keep(const Frame& frame, const TilePlan& plan);
+  /// Returns what was learned.
+  std::vector<Learned>& views();
+  const std::vector<Learned>& views() const;
   void learn(Learned& learned, const ColorSamples& samples, std::size_t view) const;
   /// Fits colours without the known highlights, then highlights with these colours.
   void learn_both(Learned& learned, const ColorSamples& samples, const ViewDirections& to) const;
@@ -88,7 +95,9 @@ class PhotometricMatch {
 
   PhotometricSettings settings_;
   ColorSampler sampler_;
-  std::vector<Learned> views_;  // without the first
+  std::vector<Learned> views_;  // without the first; see views()
+  Frame kept_;
+  mutable SideWork learning_{"match colours"};  ///< uses all of this
 };
 
 }  // namespace internal

@@ -46,9 +46,9 @@ std::size_t different_cells(const SmallPicture& a, const SmallPicture& b) {
   return size - same;
 }
 
-std::vector<std::size_t> moved_cells(const SmallPicture& before, const SmallPicture& now) {
+std::vector<std::size_t> moved_cells(const SmallPicture& before, const SmallPicture& now,
+                                     float gain) {
   constexpr int kMotion = 6 * SmallPicture::kLevel;  // well above noise
-  const float gain = gain_between(before, now);
   std::vector<std::size_t> out;
   const auto look_at = [&](std::size_t i) {
     const std::uint16_t from = before.cells[i], to = now.cells[i];

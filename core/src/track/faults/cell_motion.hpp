@@ -21,8 +21,10 @@ bool is_still(const SmallPicture& a, const SmallPicture& b);
 std::size_t different_cells(const SmallPicture& a, const SmallPicture& b);
 
 /// Returns the cells that move between two pictures of one size: they differ well above noise. A
-/// picture that becomes brighter does not move, and clipped cells do not tell.
-std::vector<std::size_t> moved_cells(const SmallPicture& before, const SmallPicture& now);
+/// picture that becomes brighter, by `gain` as of gain_between(), does not move, and clipped cells
+/// do not tell.
+std::vector<std::size_t> moved_cells(const SmallPicture& before, const SmallPicture& now,
+                                     float gain);
 
 /// Knows where another camera may see what a cell of a picture shows, from near to far.
 class CellSight {

@@ -52,7 +52,7 @@ bool FrozenViews::is_frozen(std::size_t view, const SmallPictures& now) {
   const std::size_t part = cells_of_a_part(*now[view]);
   const bool still = is_still(*own.since[view], *now[view]);
   std::vector<std::size_t> moved;
-  if (!still) moved = moved_cells(*own.since[view], *now[view]);
+  if (!still) moved = moved_between(view, own.since, now);
   const bool noise = 4 * moved.size() < part;
   bool frozen = false;
   if (still)
@@ -70,13 +70,18 @@ bool FrozenViews::is_frozen(std::size_t view, const SmallPictures& now) {
   return frozen;
 }
 
+std::vector<std::size_t> FrozenViews::moved_between(std::size_t view, const SmallPictures& before,
+                                                    const SmallPictures& now) {
+  return moved_cells(*before[view], *now[view], gain(view, before[view], now[view]));
+}
+
 bool FrozenViews::moves_beside(std::size_t view, const SmallPictures& now, std::size_t least,
                                bool clips, bool recent) {
   const SmallPictures& since = views_[view].since;
   for (std::size_t other = 0; other < now.size(); ++other) {
     if (other == view || !is_alike(since[other], now[other])) continue;
     if (is_still(*since[other], *now[other])) continue;
-    const std::vector<std::size_t> moved = moved_cells(*since[other], *now[other]);
+    const std::vector<std::size_t> moved = moved_between(other, since, now);
     if (moved.size() < std::max(least, cells_of_a_part(*now[other]))) continue;
     const CellSight& places = sight(other, view, now);
     const auto count = std::ranges::count_if(moved, [&](std::size_t cell) {

@@ -29,6 +29,13 @@ class FrozenViews {
   /// frozen view, or kAll.
   std::optional<int> next(const SmallPictures& now);
 
+  /// Returns gain_between() of a view's pictures: mostly what next() has found.
+  float gain(std::size_t view, const std::shared_ptr<const SmallPicture>& before,
+             const std::shared_ptr<const SmallPicture>& now) {
+    if (view >= gains_.size()) gains_.resize(view + 1);
+    return gains_[view].between(before, now);
+  }
+
  private:
   struct ViewState {
     SmallPictures since;        ///< all pictures when this view's changed last
@@ -41,6 +48,8 @@ class FrozenViews {
 
   /// Returns whether a view is frozen, and remembers its motion.
   bool is_frozen(std::size_t view, const SmallPictures& now);
+  std::vector<std::size_t> moved_between(std::size_t view, const SmallPictures& before,
+                                         const SmallPictures& now);
   /// Returns whether at least `least` cells of another view have moved since the picture of `view`
   /// did, where camera `view` would see it. A clipped place may not show it. With `recent`, the
   /// place has to show motion of a moment ago.
@@ -56,6 +65,7 @@ class FrozenViews {
 
   std::vector<Camera> cameras_;
   std::vector<ViewState> views_;
+  std::vector<LastGain> gains_;                   ///< by view
   SmallPictures before_;                          ///< of the last frame
   bool changed_ = false;                          ///< pictures of some view have moved
   std::vector<std::optional<CellSight>> sights_;  ///< by view and other view; empty: not needed

@@ -31,13 +31,12 @@ bool is_same(const SmallPicture& a, const SmallPicture& b) {
 }
 
 /// Returns by how much a picture is brighter than the one before, if most of its cells are far
-/// brighter or darker; otherwise 1.
-float jump_between(const SmallPicture& before, const SmallPicture& now) {
+/// brighter or darker; otherwise 1. `gain` is gain_between() of the pictures.
+float jump_between(const SmallPicture& before, const SmallPicture& now, float gain) {
   constexpr double kMean = 1.5;
   constexpr float kMost = 1.4F;
   const double ratio = (now.mean + 1) / (before.mean + 1);
   if (ratio < kMean && ratio > 1 / kMean) return 1;
-  const float gain = gain_between(before, now);
   return gain > kMost || gain < 1 / kMost ? gain : 1;
 }
 
@@ -111,8 +110,9 @@ std::optional<int> PictureChecks::jumping_view(const SmallPictures& now) {
   std::optional<int> first;
   for (std::size_t v = 0; v < std::min(now.size(), good_.size()); ++v) {
     if (!now[v] || !good_[v] || now[v]->cells.size() != good_[v]->cells.size()) continue;
-    jumps_[v] = jump_between(*good_[v], *now[v]);
-    if (jumps_[v] == 1) drifts_[v] = gain_between(*good_[v], *now[v]);
+    const float gain = frozen_.gain(v, good_[v], now[v]);
+    jumps_[v] = jump_between(*good_[v], *now[v], gain);
+    if (jumps_[v] == 1) drifts_[v] = gain;
     if (jumps_[v] != 1 && !first) first = static_cast<int>(v);
   }
   return first;

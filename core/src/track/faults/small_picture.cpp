@@ -75,4 +75,14 @@ float gain_between(const SmallPicture& before, const SmallPicture& now) {
   return tells ? upper_median(std::move(ratios)) : 1.0F;
 }
 
+float LastGain::between(const std::shared_ptr<const SmallPicture>& before,
+                        const std::shared_ptr<const SmallPicture>& now) {
+  if (before_ != before || now_ != now) {
+    gain_ = gain_between(*before, *now);
+    before_ = before;
+    now_ = now;
+  }
+  return gain_;
+}
+
 }  // namespace hypotrack::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -31,6 +32,17 @@ SmallPicture shrink(const cv::Mat& color);
 /// Returns by how much the second of two pictures of one size is brighter: the median over some
 /// cells. 1 if most of the first is too dark to tell.
 float gain_between(const SmallPicture& before, const SmallPicture& now);
+
+/// Remembers gain_between() of the last pictures, for several checks ask for it.
+class LastGain {
+ public:
+  float between(const std::shared_ptr<const SmallPicture>& before,
+                const std::shared_ptr<const SmallPicture>& now);
+
+ private:
+  std::shared_ptr<const SmallPicture> before_, now_;
+  float gain_ = 1;
+};
 
 }  // namespace internal
 }  // namespace hypotrack

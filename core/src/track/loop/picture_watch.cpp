@@ -1,5 +1,7 @@
 #include "track/loop/picture_watch.hpp"
 
+#include <utility>
+
 #include "base/profile.hpp"
 #include "track/faults/picture_checks.hpp"
 
@@ -15,6 +17,7 @@ PictureWatch::PictureWatch(const std::vector<Camera>& cameras,
 ViewFault PictureWatch::check(const Frame& frame) {
   const ProfiledPart part("check pictures");
   const ViewFault found = checks_ ? checks_->check(frame) : ViewFault{};
+  if (checks_) brightness_.next(checks_->jumps());
   if (rig_ && !spoils_pictures(found.fault)) {
     const bool waits = rig_->learns_rows();
     if (waits) rig_->look(frame);
@@ -31,24 +34,22 @@ PictureWatch::FrameEnd::~FrameEnd() {
   }
 }
 
-void PictureWatch::keep_brightness() {
-  if (checks_) brightness_.next(checks_->jumps());
-}
-
 Frame PictureWatch::steadied(const Frame& frame) const {
   return corrected(brightness_.applied_to(frame), correction_);
 }
 
-void PictureWatch::tell_drifts(FrameSearch& search) const {
+void PictureWatch::tell_drifts(FrameSearch& search) {
+  const std::optional<int> before = std::exchange(searched_, std::nullopt);
+  if (rig_ && before && search.photometric().knows())
+    rig_->look_at_colors(*before, search.second_view_colors());
   if (checks_) search.follow_brightness(checks_->drifts());
 }
 
-bool PictureWatch::doubts_depth(const Solution& solution, const FrameSearch* search) {
+bool PictureWatch::doubts_depth(int frame, bool is_searched) {
   const ProfiledPart part("check rig");
   if (!rig_) return false;
   beside_.wait();
-  if (search && search->photometric().knows())
-    rig_->look_at_colors(solution.frame, search->second_view_colors());
+  if (is_searched) searched_ = frame;
   return rig_->is_doubtful();
 }
 

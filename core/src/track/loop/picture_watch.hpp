@@ -10,7 +10,6 @@
 #include "cost/cost.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/frame.hpp"
-#include "hypotrack/api/solution.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
 #include "track/rig/rig_watch.hpp"
@@ -27,18 +26,18 @@ class PictureWatch {
                bool is_on);
 
   /// Returns the worst fault of the next frame. Call it with all frames that have views, in order.
-  /// It may go on to look at the frame beside the search: call it within a FrameEnd's life.
+  /// It takes a jump of brightness out of this frame and later ones, and may go on to look at the
+  /// frame beside the search: call it within a FrameEnd's life.
   ViewFault check(const Frame& frame);
-  /// Takes the jump of brightness that check() found out of this frame and later ones.
-  void keep_brightness();
   /// Returns a frame as it is searched: as bright as before, and as the calibration says.
   Frame steadied(const Frame& frame) const;
-  /// Lets a search follow slow changes of brightness.
-  void tell_drifts(FrameSearch& search) const;
+  /// Looks at the colours that a search learned from the frame before, and lets it follow slow
+  /// changes of brightness since.
+  void tell_drifts(FrameSearch& search);
 
-  /// Takes the solution of a frame and the search that found it; null: there was none. Returns
-  /// whether depth may be wrong, for the cameras do not fit their calibration.
-  bool doubts_depth(const Solution& solution, const FrameSearch* search);
+  /// Takes the number of a frame, and whether its search is done. Returns whether depth may be
+  /// wrong, for the cameras do not fit their calibration.
+  bool doubts_depth(int frame, bool is_searched);
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_notes();
 
@@ -59,6 +58,7 @@ class PictureWatch {
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
   std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() as of the last check()
+  std::optional<int> searched_;            ///< frame whose learned colours are to be looked at
   tbb::task_group beside_;                 ///< what of it runs beside the search
 };
 

@@ -26,10 +26,6 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
   reserve_evaluations(parts.fixed_lag, judge_.evaluations(), loop_.finder.budget());
 }
 
-SceneTracker::~SceneTracker() = default;
-
-int SceneTracker::threads() const { return arena_.max_concurrency(); }
-
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
   return arena_.execute([&] { return track_here(frame, record, trace); });
 }
@@ -43,14 +39,12 @@ Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, Fram
     const auto [fault, view] = pictures_.check(frame);
     solution.fault = fault;
     solution.fault_view = view;
-    pictures_.keep_brightness();
     if (!spoils_pictures(fault)) {
       const Frame steady = pictures_.steadied(frame);
       detail::in_frame(steady.index,
                        [&] { find_or_leave_device(steady, solution, record, trace); });
-      // A search in the background changes what this would read.
-      const FrameSearch* search = background_.is_running() ? nullptr : &loop_.finder.search();
-      if (pictures_.doubts_depth(solution, search)) call_uncertain(solution);
+      const bool is_searched = !background_.is_running();
+      if (pictures_.doubts_depth(steady.index, is_searched)) call_uncertain(solution);
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();

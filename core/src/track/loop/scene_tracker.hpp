@@ -30,14 +30,11 @@ class SceneTracker {
   /// `parts.begins_by_looking`, any state in view. Equal seeds and input give
   /// equal solutions, except with recovery in the background. The scene must outlive the tracker.
   SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
-  ~SceneTracker();
-  SceneTracker(const SceneTracker&) = delete;
-  SceneTracker& operator=(const SceneTracker&) = delete;
 
   /// Finds the scene in the next frame. `record`, if given, receives how, and `trace` how the
-  /// searches converged. Both stay empty while a search runs in the background. It uses at
-  /// most the threads of EvaluateSettings, apart from OpenCV's. Throws Stopped by check_stop();
-  /// the tracker can go on with the next frame.
+  /// searches converged. Both stay empty while a search runs in the background. It uses at most the
+  /// threads of EvaluateSettings, apart from OpenCV's. Throws Stopped by check_stop(); the tracker
+  /// can go on with the next frame. Later calls throw errors of learning, which goes on.
   Solution track(const Frame& frame, SearchRecord* record = nullptr, FrameTrace* trace = nullptr);
 
   /// Forgets where the models are: the next frame looks for them again. Without recovery the search
@@ -67,7 +64,7 @@ class SceneTracker {
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_rig_notes() { return pictures_.take_notes(); }
   /// Returns the number of threads that it may use.
-  int threads() const;
+  int threads() const { return arena_.max_concurrency(); }
   /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const { return loop_.finder.search().cost().backend(); }
   /// Returns the error after which the CPU took the place of a device; empty: there was none.

@@ -72,18 +72,47 @@ void Recovery::remember(const Eigen::VectorXd& state, const std::vector<bool>& t
   }
 }
 
+Recovery::Reduction::Reduction(Recovery& recovery, const Frame* frame) : recovery_(recovery) {
+  if (!frame || frame->views.size() < 2) return;
+  recovery.reduced_ = {};
+  recovery.reducing_.begin([&recovery, frame] { recovery.reduced_ = recovery.reduced(*frame); });
+}
+
+Recovery::Reduction::~Reduction() {
+  try {
+    recovery_.reducing_.wait();
+  } catch (...) {  // learn_backgrounds() tries again
+  }
+}
+
+Recovery::ReducedFrame Recovery::reduced(const Frame& frame) const {
+  ReducedFrame out{frame.index};
+  tbb::parallel_for(std::size_t{0}, out.pictures.size(), [&](std::size_t i) {
+    const cv::Mat& picture = frame.views[i].color;
+    if (!picture.empty()) out.pictures[i] = finders_[0].reduced(picture, i);
+  });
+  return out;
+}
+
 void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state) {
   if (frame.views.size() < 2) return;
+  if (reduced_.index != frame.index) reduced_ = reduced(frame);
+  learning_.begin([this, pictures = reduced_.pictures, state] {
+    tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
+      if (!pictures[i].empty()) learn_background(i, pictures[i], state);
+    });
+  });
+}
+
+void Recovery::learn_background(std::size_t view, const cv::Mat3b& picture,
+                                const Eigen::VectorXd& state) {
   constexpr int kMargin = 3;  // reduced pixels around silhouettes
   const cv::Mat square =
       cv::getStructuringElement(cv::MORPH_RECT, {2 * kMargin + 1, 2 * kMargin + 1});
-  tbb::parallel_for(std::size_t{0}, backgrounds_.size(), [&](std::size_t i) {
-    if (frame.views[i].color.empty()) return;
-    cv::Mat1b models = silhouettes(scene_, std::vector<bool>(searches_.size(), true), state,
-                                   cameras_[i], finders_[0].reduction(i));
-    cv::dilate(models, models, square);
-    backgrounds_[i].learn(finders_[0].reduced(frame.views[i].color, i), models);
-  });
+  cv::Mat1b models = silhouettes(scene_, std::vector<bool>(searches_.size(), true), state,
+                                 cameras_[view], finders_[0].reduction(view));
+  cv::dilate(models, models, square);
+  backgrounds_[view].learn(picture, models);
 }
 
 ForegroundColors Recovery::colors_of(const Task& task) const {
@@ -99,6 +128,7 @@ ForegroundColors Recovery::colors_of(const Task& task) const {
 }
 
 Places Recovery::places(const Task& task) {
+  learning_.wait();
   const PlaceFinder& finder = finders_[task.model];
   const std::vector<View>& views = task.frame.views;
   std::vector<bool> others = task.hidden;

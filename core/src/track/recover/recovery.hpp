@@ -21,6 +21,7 @@
 #include "track/recover/pose_search.hpp"
 #include "track/recover/recovery_settings.hpp"
 #include "track/search/frame_search.hpp"
+#include "track/side_work.hpp"
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
@@ -86,12 +87,34 @@ class Recovery {
   /// Returns the search for poses of a model.
   const PoseSearch& search(std::size_t model) const { return *searches_[model]; }
 
+  /// Reduces the pictures of a frame during its life, beside other work, for learn_backgrounds().
+  class Reduction {
+   public:
+    /// Both must outlive it. Null: nothing will be learned.
+    Reduction(Recovery& recovery, const Frame* frame);
+    ~Reduction();
+    Reduction(const Reduction&) = delete;
+    Reduction& operator=(const Reduction&) = delete;
+
+   private:
+    Recovery& recovery_;
+  };
+
   /// Learns the postures of the models with `tracked`, which are surely right.
   void remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked);
-  /// Learns the background, where all models are surely right: a lost one may be anywhere in it.
+  /// Learns the background, where all models are surely right: a lost one may be anywhere in it. It
+  /// works beside what the caller does next, without the frame; look() throws its errors.
   void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
 
  private:
+  /// The reduced pictures of a frame.
+  struct ReducedFrame {
+    std::optional<int> index = {};
+    std::array<cv::Mat3b, 2> pictures = {};
+  };
+
+  ReducedFrame reduced(const Frame& frame) const;
+  void learn_background(std::size_t view, const cv::Mat3b& picture, const Eigen::VectorXd& state);
   std::vector<PoseGuess> guesses(const Task& task, const Places& places,
                                  const MotionLimits& limits);
   Places places(const Task& task);
@@ -114,6 +137,8 @@ class Recovery {
   std::optional<DepthWeights> depths_;            ///< for models whose colours are unknown
   std::array<BackgroundModel, 2> backgrounds_;    ///< of the reduced pictures
   std::vector<bool> in_view_;                     ///< by model, when it was looked for last
+  ReducedFrame reduced_;                          ///< by the last Reduction
+  SideWork reducing_{"reduce pictures"}, learning_{"learn backgrounds"};
 };
 
 }  // namespace internal

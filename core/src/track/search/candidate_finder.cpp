@@ -167,6 +167,7 @@ Candidate CandidateFinder::searched(const Frame& frame, const Eigen::MatrixXd& s
                                     const Budget& budget, const std::optional<Reach>& reach,
                                     std::uint64_t seed) {
   search_.look(frame, starts.col(0), false);
+  const Recovery::Reduction reduction(recovery_, is_time_to_learn() ? &frame : nullptr);
   const Eigen::VectorXd prior = search_.cheapest(starts);
   Budget left = budget;
   const std::int64_t compared = starts.cols() > 1 ? starts.cols() : 0;
@@ -457,10 +458,15 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
   if (any(sure) && !occlusion_.hidden()) learn(frame, best, sure);
 }
 
-void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {
+bool CandidateFinder::is_time_to_learn() const {
   constexpr int kEvery = 4;  // frames
-  const bool is_time = learned_ % kEvery == 0;
-  if (settings_.judged && !std::isnan(best.probability()) && is_time) {
+  return settings_.judged && learned_ % kEvery == 0;
+}
+
+void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {
+  // Without a judge nothing is ever sought in pictures.
+  const bool is_time = is_time_to_learn();
+  if (is_time && !std::isnan(best.probability())) {
     const Eigen::VectorXd drawn = search_.drawn(best.found.state);
     if (!verifier_.verified(drawn))
       verifier_.verify(frame, drawn, search_.second_view_colors(), best.shown);
@@ -471,8 +477,7 @@ void CandidateFinder::learn(const Frame& frame, const Candidate& best, const Mod
   search_.learn(frame, best.found.state);
   recovery_.remember(best.found.state, sure);
   const bool all = std::ranges::find(sure, false) == sure.end();
-  // Without a judge nothing is ever sought there.
-  if (settings_.judged && is_time && all) recovery_.learn_backgrounds(frame, best.found.state);
+  if (is_time && all) recovery_.learn_backgrounds(frame, best.found.state);
 }
 
 }  // namespace hypotrack::internal

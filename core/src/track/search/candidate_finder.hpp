@@ -141,6 +141,8 @@ class CandidateFinder {
   class ModelSearch;
 
   void learn(const Frame& frame, const Candidate& best, const ModelFlags& sure);
+  /// Returns whether looks and backgrounds are learned from this frame, if it is right.
+  bool is_time_to_learn() const;
   /// Searches a frame repeatedly from a state that may be some centimetres off.
   Candidate searched_from(const Frame& frame, const Eigen::VectorXd& state, std::uint64_t seed);
   Candidate verified(const Frame& frame, Found found);

@@ -69,19 +69,23 @@ void ModelVerifier::forget() {
   usual_.reset();
 }
 
-void ModelVerifier::learn(const Measures& measures) {
-  if (!measures.known) return;
-  const bool knew_colors = colors_.known();
-  colors_.learn(samples_);
-  appearance_.learn(samples_);
-  if (!usual_ || !knew_colors) {
+bool ModelVerifier::learn_usual(const Measures& measures) {
+  if (!measures.known) return false;
+  if (!usual_ || !colors_.known()) {
+    learn_looks();
     usual_ = measure(samples_, colors_, appearance_).values;
-    return;
+    return false;
   }
   for (std::size_t i = 0; i < usual_->size(); ++i)
     (*usual_)[i] += kUsualRate * (measures.values[i] - (*usual_)[i]);
   if (!std::isnan(measures.likeness))
     usual_likeness_ += kUsualRate * (measures.likeness - usual_likeness_);
+  return true;
+}
+
+void ModelVerifier::learn_looks() {
+  colors_.learn(samples_);
+  appearance_.learn(samples_);
 }
 
 PoseVerifier::PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras,
@@ -93,6 +97,7 @@ PoseVerifier::PoseVerifier(const Scene& scene, const std::vector<Camera>& camera
 
 ModelProbabilities PoseVerifier::verify(const Frame& frame, const Eigen::VectorXd& state,
                                         const ColorMap& colors, const std::vector<bool>& models) {
+  looks_.wait();
   state_ = state;
   ModelProbabilities probabilities(models.size(), std::numeric_limits<double>::quiet_NaN());
   measures_.assign(models_.size(), {});
@@ -116,8 +121,15 @@ bool PoseVerifier::experienced() const {
 }
 
 void PoseVerifier::learn(const std::vector<bool>& right) {
+  looks_.wait();
+  std::vector<ModelVerifier*> left;
   for (std::size_t m = 0; m < models_.size(); ++m)
-    if (right[m] && measures_[m].covered <= kHidden) models_[m].learn(measures_[m]);
+    if (right[m] && measures_[m].covered <= kHidden && models_[m].learn_usual(measures_[m]))
+      left.push_back(&models_[m]);
+  if (left.empty()) return;
+  looks_.begin([left] {
+    for (ModelVerifier* model : left) model->learn_looks();
+  });
 }
 
 }  // namespace hypotrack::internal

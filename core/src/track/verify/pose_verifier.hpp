@@ -14,6 +14,7 @@
 #include "hypotrack/plugin/judge.hpp"
 #include "tile/color_map.hpp"
 #include "track/model_pose.hpp"
+#include "track/side_work.hpp"
 #include "track/verify/appearance.hpp"
 #include "track/verify/foreground_colors.hpp"
 #include "track/verify/surface_samples.hpp"
@@ -47,9 +48,14 @@ class ModelVerifier {
   /// Sets whether the model was tracked in the last frame (Measures::tracked).
   void set_tracked(bool tracked) { tracked_ = tracked; }
 
-  /// Learns colours and usual measures from the last measured(), in which the model was surely
-  /// right.
-  void learn(const Measures& measures);
+  /// Learns looks and usual measures from the last measured(), in which the model was surely right.
+  void learn(const Measures& measures) {
+    if (learn_usual(measures)) learn_looks();
+  }
+  /// Does the part of learn() that tells what is usual, and all of it at first. Returns whether
+  /// learn_looks() is left to be called before measured().
+  bool learn_usual(const Measures& measures);
+  void learn_looks();
   /// Forgets what was learned.
   void forget();
   bool experienced() const { return usual_.has_value(); }
@@ -95,7 +101,10 @@ class PoseVerifier {
     for (ModelVerifier& model : models_) model.hide(hidden);
   }
   /// Returns the colours of a model.
-  const ForegroundColors& colors(std::size_t model) const { return models_.at(model).colors(); }
+  const ForegroundColors& colors(std::size_t model) const {
+    looks_.wait();
+    return models_.at(model).colors();
+  }
 
   /// Sets whether a model was tracked in the last frame (ModelVerifier::set_tracked()).
   void set_tracked(std::size_t model, bool tracked) {
@@ -103,10 +112,14 @@ class PoseVerifier {
   }
 
   /// Learns from the last frame verified. `right` flags the models whose pose was surely right.
+  /// Looks are learned beside what the caller does next; errors are thrown where they are used.
   void learn(const std::vector<bool>& right);
 
   /// Forgets what was learned of a model.
-  void forget(std::size_t model) { models_.at(model).forget(); }
+  void forget(std::size_t model) {
+    looks_.wait();
+    models_.at(model).forget();
+  }
 
   /// Returns whether the last call of verify() was for this state.
   bool verified(const Eigen::VectorXd& state) const {
@@ -119,6 +132,7 @@ class PoseVerifier {
   bool experienced() const;
   /// Returns the verifier of one model. Its measured() invalidates learn() until the next verify().
   ModelVerifier& model(std::size_t i) {
+    looks_.wait();
     state_.resize(0);
     return models_[i];
   }
@@ -128,6 +142,7 @@ class PoseVerifier {
   std::vector<ModelVerifier> models_;
   std::vector<Measures> measures_;  ///< by model, of the last verify()
   Eigen::VectorXd state_;
+  mutable SideWork looks_{"learn looks"};  ///< of models_
 };
 
 }  // namespace internal

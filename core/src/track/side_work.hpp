@@ -1,0 +1,43 @@
+#pragma once
+
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <functional>
+#include <string_view>
+#include <thread>
+
+#include "base/exported.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Does a work in another thread, beside what the owner of this object does meanwhile. The thread
+/// is of the arena that begins the first work; an arena of one thread does all works at once.
+class SideWork {
+ public:
+  /// `name`, which must outlive the object, is that of its part in profiles and in errors.
+  explicit SideWork(std::string_view name) : name_(name) {}
+  /// Waits for the work. What it throws is lost.
+  ~SideWork();
+  SideWork(const SideWork&) = delete;
+  SideWork& operator=(const SideWork&) = delete;
+
+  /// Returns whether begin() has a thread for works; else they are done before it returns.
+  bool has_thread();
+  /// Begins a work after wait().
+  void begin(std::function<void()> work);
+  /// Waits until no work is left. Throws, once, what it threw.
+  void wait();
+
+ private:
+  std::string_view name_;
+  tbb::task_arena arena_;
+  tbb::task_group group_;
+  bool runs_ = false;
+  double seconds_ = 0;      ///< that the last work took
+  std::thread::id thread_;  ///< that did it
+};
+
+}  // namespace internal
+}  // namespace hypotrack
