@@ -6,6 +6,7 @@
 #include "cost/draw/hypothesis_drawer.hpp"
 #include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
+#include "track/color_at.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -57,26 +58,6 @@ Eigen::Matrix3Xf columns(const std::vector<Eigen::Vector3f>& vectors) {
   for (std::size_t i = 0; i < vectors.size(); ++i)
     out.col(static_cast<Eigen::Index>(i)) = vectors[i];
   return out;
-}
-
-/// Interpolates the colour at a position of an image. Returns false outside.
-bool color_at(const cv::Mat& image, const ImagePoint& p, std::array<float, 3>& color) {
-  const float x0 = std::floor(p.x), y0 = std::floor(p.y);
-  if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
-        y0 + 1 < static_cast<float>(image.rows))) {
-    return false;
-  }
-  const float fx = p.x - x0, fy = p.y - y0;
-  const auto* top = image.ptr<cv::Vec3b>(static_cast<int>(y0)) + static_cast<int>(x0);
-  const auto* bottom = image.ptr<cv::Vec3b>(static_cast<int>(y0) + 1) + static_cast<int>(x0);
-  for (int i = 0; i < 3; ++i) {
-    const float above =
-        (1 - fx) * static_cast<float>(top[0][i]) + fx * static_cast<float>(top[1][i]);
-    const float below =
-        (1 - fx) * static_cast<float>(bottom[0][i]) + fx * static_cast<float>(bottom[1][i]);
-    color[static_cast<std::size_t>(i)] = (1 - fy) * above + fy * below;
-  }
-  return true;
 }
 
 /// Looks up a camera's image at positions of its grid.

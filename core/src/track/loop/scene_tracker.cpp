@@ -26,6 +26,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
   reserve_evaluations(parts.fixed_lag, judge_.evaluations(), loop_.finder.budget());
 }
 
+SceneTracker::~SceneTracker() = default;
+
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
   return arena_.execute([&] { return track_here(frame, record, trace); });
 }
@@ -81,22 +83,17 @@ void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* re
     const RecoveryRequest request = plan_.next(loop_, frame, best);
     if (plan_.is_for_background(loop_, request, best)) {
       watch.end();
-      return find_in_background(frame, request, best, solution);
+      background_.start(frame, [this, request, found = best](const Frame& copy) mutable {
+        loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7));
+        return found;
+      });
+      return stay_lost(frame, solution);
     }
     if (any(request.sought)) recover(loop_, frame, request, best);
   }
   watch.end(best);
   conclude(frame, best, solution);
   watch.describe(best, terms_);
-}
-
-void SceneTracker::find_in_background(const Frame& frame, const RecoveryRequest& request,
-                                      const Candidate& best, Solution& solution) {
-  background_.start(frame, [this, request, found = best](const Frame& copy) mutable {
-    loop_.finder.recover(copy, request, found, loop_.seed_of(copy, 7));
-    return found;
-  });
-  stay_lost(frame, solution);
 }
 
 void SceneTracker::find_from_background(const Frame& frame, Solution& solution) {

@@ -30,6 +30,7 @@ class SceneTracker {
   /// `parts.begins_by_looking`, any state in view. Equal seeds and input give
   /// equal solutions, except with recovery in the background. The scene must outlive the tracker.
   SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
+  ~SceneTracker();
 
   /// Finds the scene in the next frame. `record`, if given, receives how, and `trace` how the
   /// searches converged. Both stay empty while a search runs in the background. It uses at most the
@@ -76,9 +77,6 @@ class SceneTracker {
   void find_or_leave_device(const Frame& frame, Solution& solution, SearchRecord* record,
                             FrameTrace* trace);
   void find(const Frame& frame, Solution& solution, SearchRecord* record, FrameTrace* trace);
-  /// Begins a search in the background. The frame has no result.
-  void find_in_background(const Frame& frame, const RecoveryRequest& request, const Candidate& best,
-                          Solution& solution);
   /// Searches a frame from the result of the search in the background, once it has one.
   void find_from_background(const Frame& frame, Solution& solution);
   /// Ends a frame without a result, while the search goes on in the background.

@@ -67,25 +67,23 @@ class Quads {
   }
   auto operator()(int x, int y) { return numbers_.col(place(x, y)); }
   /// Returns the sums over the windows around the points. Those of the border are not valid.
-  Quads sums() const {
-    Quads rows = *this, out = *this;
-    rows.add_neighbours(numbers_, 1);
-    out.add_neighbours(rows.numbers_, pitch_);
-    return out;
-  }
+  Quads sums() const { return Quads(Quads(*this, 1), pitch_); }
 
  private:
   static constexpr int kBorder = kWindow / 2;
   using Numbers = Eigen::Array<float, 4, Eigen::Dynamic>;
 
-  Eigen::Index place(int x, int y) const { return (y + kBorder) * pitch_ + x + kBorder; }
-  /// Makes each number the sum of five, `step` apart.
-  void add_neighbours(const Numbers& from, Eigen::Index step) {
+  /// Makes each number the sum of five of others, `step` apart.
+  Quads(const Quads& from, Eigen::Index step)
+      : pitch_(from.pitch_), numbers_(4, from.numbers_.cols()) {
     static_assert(kWindow == 5);
-    const Eigen::Index count = from.cols() - 4 * step;
-    const auto at = [&](int k) { return from.middleCols(k * step, count); };
+    const Eigen::Index count = numbers_.cols() - 4 * step;
+    const auto at = [&](int k) { return from.numbers_.middleCols(k * step, count); };
     numbers_.middleCols(2 * step, count) = at(0) + at(1) + at(2) + at(3) + at(4);
+    numbers_.leftCols(2 * step).setZero();
+    numbers_.rightCols(2 * step).setZero();
   }
+  Eigen::Index place(int x, int y) const { return (y + kBorder) * pitch_ + x + kBorder; }
 
   Eigen::Index pitch_;
   Numbers numbers_;

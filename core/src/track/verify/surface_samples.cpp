@@ -10,6 +10,7 @@
 #include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
 #include "tile/tiles.hpp"
+#include "track/color_at.hpp"
 #include "track/verify/ready_threads.hpp"
 
 namespace hypotrack::internal {
@@ -19,25 +20,6 @@ constexpr double kSamplePadding = 0.25;  // of the model's extent, so that the r
 constexpr int kRing = 5;                 // grid points beside the silhouette
 constexpr Eigen::Index kPoints = 600;    // of the surface
 constexpr float kSameSurface = 0.006f;   // metres, between neighbouring points of the grid
-
-/// Interpolates a colour of an image. Returns false outside.
-bool color_at(const cv::Mat& image, const ImagePoint& p, cv::Vec3f& color) {
-  const float x0 = std::floor(p.x), y0 = std::floor(p.y);
-  if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
-        y0 + 1 < static_cast<float>(image.rows)))
-    return false;
-  const float fx = p.x - x0, fy = p.y - y0;
-  const auto* top = image.ptr<cv::Vec3b>(static_cast<int>(y0)) + static_cast<int>(x0);
-  const auto* bottom = image.ptr<cv::Vec3b>(static_cast<int>(y0) + 1) + static_cast<int>(x0);
-  for (int i = 0; i < 3; ++i) {
-    const float above =
-        (1 - fx) * static_cast<float>(top[0][i]) + fx * static_cast<float>(top[1][i]);
-    const float below =
-        (1 - fx) * static_cast<float>(bottom[0][i]) + fx * static_cast<float>(bottom[1][i]);
-    color[i] = (1 - fy) * above + fy * below;
-  }
-  return true;
-}
 
 cv::Vec3f mapped(const ColorMap& map, const cv::Vec3f& color) {
   return {map.gain[0] * color[0] + map.offset[0], map.gain[1] * color[1] + map.offset[1],
@@ -258,22 +240,31 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
                       frame.views[1].color, colors};
   const TileCamera& grid = plan.header.views[0].camera;
   const int size = self.grid_size;
-  const cv::Range top(0, size / 2), bottom(size / 2, size);
+  const auto quarter = [&](int i) { return cv::Range(i * size / 4, (i + 1) * size / 4); };
   SampledView& left = out.views[0];
   SampledView& right = out.views[1];
   run_together({[&] { left = self.silhouette(0); }, [&] { right = self.silhouette(1); }});
-  run_together({[&] { self.look_up(first, 0, top, left); },
-                [&] { self.look_up(first, 0, bottom, left); },
-                [&] { self.look_up(second, 1, top, right); },
-                [&] { self.look_up(second, 1, bottom, right); }});
-  const StereoMap map = stereo_map(plan.header, 0, 1);
+  run_together({[&] { self.look_up(first, 0, quarter(0), left); },
+                [&] { self.look_up(first, 0, quarter(1), left); },
+                [&] { self.look_up(first, 0, quarter(2), left); },
+                [&] { self.look_up(first, 0, quarter(3), left); }});
+  // The longest work comes first: the others find room beside it.
   cv::Mat1f depth = self.own[0].clone();
-  extend(depth, left.inside, left.ring);
+  run_together({[&] { extend(depth, left.inside, left.ring); },
+                [&] { out.points = self.points(left, grid, own); },
+                [&] {
+                  self.look_up(second, 1, {0, size / 2}, right);
+                },
+                [&] {
+                  self.look_up(second, 1, {size / 2, size}, right);
+                }});
+  const StereoMap map = stereo_map(plan.header, 0, 1);
   out.other = cv::Mat3f(size, size, cv::Vec3f(0, 0, 0));
   out.paired = cv::Mat1b(size, size, uchar{0});
-  run_together({[&] { self.pair(second, map, depth, top, out); },
-                [&] { self.pair(second, map, depth, bottom, out); },
-                [&] { out.points = self.points(left, grid, own); }});
+  run_together({[&] { self.pair(second, map, depth, quarter(0), out); },
+                [&] { self.pair(second, map, depth, quarter(1), out); },
+                [&] { self.pair(second, map, depth, quarter(2), out); },
+                [&] { self.pair(second, map, depth, quarter(3), out); }});
   out.points_per_metre = grid.fx / (grid.camera_from_world * Eigen::Vector3d(own.head<3>())).z();
   const int drawn = cv::countNonZero(self.own[0]);
   const int seen = cv::countNonZero(out.views[0].inside);
