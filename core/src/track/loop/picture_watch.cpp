@@ -22,14 +22,14 @@ ViewFault PictureWatch::check(const Frame& frame) {
     const bool waits = rig_->learns_rows();
     if (waits) rig_->look(frame);
     correction_ = rig_->correction();
-    if (!waits) beside_.run([this, frame] { rig_->look(frame); });
+    if (!waits) looking_.begin([this, frame] { rig_->look(frame); });
   }
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
 }
 
 PictureWatch::FrameEnd::~FrameEnd() {
   try {
-    watch_.beside_.wait();
+    watch_.looking_.wait();
   } catch (...) {  // lack of memory: the frame teaches nothing
   }
 }
@@ -48,7 +48,7 @@ void PictureWatch::tell_drifts(FrameSearch& search) {
 bool PictureWatch::doubts_depth(int frame, bool is_searched) {
   const ProfiledPart part("check rig");
   if (!rig_) return false;
-  beside_.wait();
+  looking_.wait();
   if (is_searched) searched_ = frame;
   return rig_->is_doubtful();
 }

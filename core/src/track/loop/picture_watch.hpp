@@ -1,7 +1,5 @@
 #pragma once
 
-#include <oneapi/tbb/task_group.h>
-
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "track/faults/steady_brightness.hpp"
 #include "track/rig/rig_watch.hpp"
 #include "track/search/frame_search.hpp"
+#include "track/side_work.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -59,7 +58,7 @@ class PictureWatch {
   std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
   std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() as of the last check()
   std::optional<int> searched_;            ///< frame whose learned colours are to be looked at
-  tbb::task_group beside_;                 ///< what of it runs beside the search
+  SideWork looking_{"look at the rig"};    ///< beside the search
 };
 
 }  // namespace internal
