@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -11,22 +13,46 @@
 #include "plugin/plugin_call.hpp"
 
 namespace hypotrack::internal {
-namespace {
 
-/// Does a work that a frame left. Names both in what it throws.
-void do_work(const std::function<void()>& work, std::string_view name, std::optional<int> frame) {
-  // A thread that waits, perhaps in another frame, may do it: it is not that frame's to stop.
-  const StopTest never = [] { return false; };
-  const StopScope scope(never);
-  const detail::ThreadFrame of_thread(frame);
-  try {
-    work();
-  } catch (...) {
-    detail::rethrow_from(frame ? fmt::format("{} of frame {}", name, *frame) : "");
+/// A work for the first thread that asks.
+struct SideWork::Job {
+  enum class State { left, begun, done };
+
+  std::function<void()> work;
+  std::string_view name;
+  std::optional<int> frame;  ///< that left it
+  std::atomic<State> state = State::left;
+  std::exception_ptr failure = {};
+  double seconds = 0;  ///< that it took
+
+  /// Does the work unless a thread has begun it. Returns whether it did.
+  bool run() {
+    State left = State::left;
+    if (!state.compare_exchange_strong(left, State::begun)) return false;
+    const auto begin = std::chrono::steady_clock::now();
+    try {
+      do_work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    state = State::done;
+    state.notify_all();
+    return true;
   }
-}
 
-}  // namespace
+  void do_work() const {
+    // A thread that waits, perhaps in another frame, may do it: it is not that frame's to stop.
+    const StopTest never = [] { return false; };
+    const StopScope scope(never);
+    const detail::ThreadFrame of_thread(frame);
+    try {
+      work();
+    } catch (...) {
+      detail::rethrow_from(frame ? fmt::format("{} of frame {}", name, *frame) : "");
+    }
+  }
+};
 
 SideWork::~SideWork() {
   try {
@@ -46,22 +72,20 @@ void SideWork::begin(std::function<void()> work) {
     const ProfiledPart part(name_);
     return work();
   }
-  runs_ = true;
-  arena_.execute([&] {
-    group_.run([this, work = std::move(work), frame = detail::running_frame()] {
-      const auto begin = std::chrono::steady_clock::now();
-      thread_ = std::this_thread::get_id();
-      do_work(work, name_, frame);
-      seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    });
-  });
+  job_ = std::make_shared<Job>(std::move(work), name_, detail::running_frame());
+  arena_.enqueue([job = job_] { job->run(); });
 }
 
 void SideWork::wait() {
-  if (!std::exchange(runs_, false)) return;
+  const std::shared_ptr<Job> job = std::exchange(job_, nullptr);
+  if (!job) return;
   ProfiledPart part(name_);
-  arena_.execute([&] { group_.wait(); });
-  if (thread_ != std::this_thread::get_id()) part.add_beside(seconds_);
+  // Waiting as TBB does would take up other works, which may be longer.
+  if (!arena_.execute([&] { return job->run(); })) {
+    job->state.wait(Job::State::begun);
+    part.add_beside(job->seconds);
+  }
+  if (job->failure) std::rethrow_exception(job->failure);
 }
 
 }  // namespace hypotrack::internal

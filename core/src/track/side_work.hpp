@@ -1,11 +1,10 @@
 #pragma once
 
 #include <oneapi/tbb/task_arena.h>
-#include <oneapi/tbb/task_group.h>
 
 #include <functional>
+#include <memory>
 #include <string_view>
-#include <thread>
 
 #include "base/exported.hpp"
 
@@ -27,16 +26,16 @@ class SideWork {
   bool has_thread();
   /// Begins a work after wait().
   void begin(std::function<void()> work);
-  /// Waits until no work is left. Throws, once, what it threw.
+  /// Waits until no work is left: does it if no thread has begun it, and no other work meanwhile.
+  /// Throws, once, what it threw.
   void wait();
 
  private:
+  struct Job;
+
   std::string_view name_;
   tbb::task_arena arena_;
-  tbb::task_group group_;
-  bool runs_ = false;
-  double seconds_ = 0;      ///< that the last work took
-  std::thread::id thread_;  ///< that did it
+  std::shared_ptr<Job> job_;  ///< the arena knows it, too; null: none
 };
 
 }  // namespace internal

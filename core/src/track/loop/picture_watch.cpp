@@ -1,7 +1,5 @@
 #include "track/loop/picture_watch.hpp"
 
-#include <utility>
-
 #include "base/profile.hpp"
 #include "track/faults/picture_checks.hpp"
 
@@ -41,7 +39,7 @@ Frame PictureWatch::steadied(const Frame& frame) const {
 void PictureWatch::tell_drifts(FrameSearch& search) {
   const std::optional<int> before = std::exchange(searched_, std::nullopt);
   if (rig_ && before && search.photometric().knows())
-    rig_->look_at_colors(*before, search.second_view_colors());
+    colors_.emplace(*before, search.second_view_colors());
   if (checks_) search.follow_brightness(checks_->drifts());
 }
 
@@ -49,6 +47,8 @@ bool PictureWatch::doubts_depth(int frame, bool is_searched) {
   const ProfiledPart part("check rig");
   if (!rig_) return false;
   looking_.wait();
+  if (const auto colors = std::exchange(colors_, std::nullopt))
+    rig_->look_at_colors(colors->first, colors->second);
   if (is_searched) searched_ = frame;
   return rig_->is_doubtful();
 }

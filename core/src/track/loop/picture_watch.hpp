@@ -2,12 +2,14 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/frame.hpp"
+#include "tile/color_map.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
 #include "track/rig/rig_watch.hpp"
@@ -30,8 +32,8 @@ class PictureWatch {
   ViewFault check(const Frame& frame);
   /// Returns a frame as it is searched: as bright as before, and as the calibration says.
   Frame steadied(const Frame& frame) const;
-  /// Looks at the colours that a search learned from the frame before, and lets it follow slow
-  /// changes of brightness since.
+  /// Takes the colours that a search learned from the frame before, and lets it follow slow changes
+  /// of brightness since.
   void tell_drifts(FrameSearch& search);
 
   /// Takes the number of a frame, and whether its search is done. Returns whether depth may be
@@ -57,7 +59,8 @@ class PictureWatch {
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
   std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() as of the last check()
-  std::optional<int> searched_;            ///< frame whose learned colours are to be looked at
+  std::optional<int> searched_;            ///< frame whose learned colours it has not taken
+  std::optional<std::pair<int, ColorMap>> colors_;  ///< of such a frame, to be looked at
   SideWork looking_{"look at the rig"};    ///< beside the search
 };
 
