@@ -96,14 +96,14 @@ TEST_F(LearningTest, IsTheSameWithAnyNumberOfThreadsWhateverBecomesOfPictures) {
 }
 
 TEST_F(LearningTest, EndsWithTheTrackerOrASearchAnew) {
-  constexpr int kTimes = 8;
+  constexpr int kTimes = 4;
   for (int i = 0; i < kTimes; ++i) {
     const auto tracker = this->tracker(3);
     tracker->track(frame(0));
     tracker->track(frame(1));
     if (i % 2 == 0) continue;
     tracker->search_anew();
-    EXPECT_EQ(tracker->track(frame(2)).state, box_.state());
+    EXPECT_NE(tracker->track(frame(2)).status, Status::missing);
   }
 }
 

@@ -109,7 +109,7 @@ TEST_F(ViewTimingTest, ALateViewIsDoubtedInTheFrameThatShowsIt) {
     alone.look(frame);
     const PictureWatch::FrameEnd end(beside);
     EXPECT_EQ(beside.check(frame).fault, FrameFault::none);
-    EXPECT_EQ(beside.doubts_depth({}, nullptr), alone.is_doubtful()) << i;
+    EXPECT_EQ(beside.doubts_depth(i, false), alone.is_doubtful()) << i;
   }
   EXPECT_TRUE(alone.is_doubtful());
 }
