@@ -18,11 +18,14 @@ namespace hypotrack::internal {
 struct SideWork::Job {
   enum class State { left, begun, done };
 
+  Job(std::function<void()> to_do, std::string_view called, std::optional<int> of_frame)
+      : work(std::move(to_do)), name(called), frame(of_frame) {}
+
   std::function<void()> work;
   std::string_view name;
   std::optional<int> frame;  ///< that left it
   std::atomic<State> state = State::left;
-  std::exception_ptr failure = {};
+  std::exception_ptr failure;
   double seconds = 0;  ///< that it took
 
   /// Does the work unless a thread has begun it. Returns whether it did.
