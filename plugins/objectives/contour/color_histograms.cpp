@@ -1,8 +1,5 @@
 #include "color_histograms.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace hypotrack::contour {
 namespace {
 
@@ -13,8 +10,7 @@ constexpr float kUnseen = 5e-4f;
 
 void ColorHistograms::Side::mix(float weight) {
   const float scale = weight / static_cast<float>(sum);
-  for (std::size_t i = 0; i < kBins; ++i)
-    shares[i] = (1 - weight) * shares[i] + scale * static_cast<float>(counts[i]);
+  shares = (1 - weight) * shares + scale * counts.cast<float>();
 }
 
 void ColorHistograms::learn(double weight) {
@@ -22,32 +18,16 @@ void ColorHistograms::learn(double weight) {
     const auto part = is_empty() ? 1.0f : static_cast<float>(weight);
     on_.mix(part);
     beside_.mix(part);
-    log_odds_.assign(kBins, 0);
-    for (std::size_t i = 0; i < kBins; ++i)
-      if (on_.shares[i] + beside_.shares[i] > 0)
-        log_odds_[i] = std::log((on_.shares[i] + kUnseen) / (beside_.shares[i] + kUnseen));
+    log_odds_ = ((on_.shares + kUnseen) / (beside_.shares + kUnseen)).log();
   }
   discard();
 }
 
 void ColorHistograms::discard() {
   for (Side* side : {&on_, &beside_}) {
-    std::ranges::fill(side->counts, 0);
+    side->counts.setZero();
     side->sum = 0;
   }
-}
-
-cv::Mat1f ColorHistograms::log_odds(const cv::Mat3b& color, const cv::Mat1b& valid) const {
-  cv::Mat1f out(color.size(), 0.0f);
-  if (is_empty()) return out;
-  for (int y = 0; y < color.rows; ++y) {
-    const cv::Vec3b* from = color[y];
-    const uchar* is_valid = valid[y];
-    float* to = out[y];
-    for (int x = 0; x < color.cols; ++x)
-      if (is_valid[x] != 0) to[x] = log_odds_[bin_of(from[x])];
-  }
-  return out;
 }
 
 }  // namespace hypotrack::contour

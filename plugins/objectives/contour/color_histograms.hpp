@@ -1,8 +1,9 @@
 #pragma once
 
-#include <array>
-#include <opencv2/core/mat.hpp>
-#include <vector>
+#include <Eigen/Core>
+#include <cstddef>
+#include <opencv2/core/matx.hpp>
+#include <span>
 
 namespace hypotrack::contour {
 
@@ -11,8 +12,9 @@ class ColorHistograms {
  public:
   /// Counts a colour of the current frame.
   void count(const cv::Vec3b& color, bool on_model) {
-    ++(on_model ? on_ : beside_).counts[bin_of(color)];
-    ++(on_model ? on_ : beside_).sum;
+    Side& side = on_model ? on_ : beside_;
+    ++side.counts[static_cast<Eigen::Index>(bin_of(color))];
+    ++side.sum;
   }
   /// Mixes the counts, as shares, into the histograms with a weight and begins new counts. Without
   /// counts on both sides nothing changes.
@@ -20,29 +22,28 @@ class ColorHistograms {
   /// Begins new counts.
   void discard();
 
-  bool is_empty() const { return log_odds_.empty(); }
-  /// Returns the log odds that each pixel of an image (8-bit BGR) is the model's; 0 where `valid`
-  /// is 0.
-  cv::Mat1f log_odds(const cv::Mat3b& color, const cv::Mat1b& valid) const;
-
- private:
-  static constexpr int kShift = 4;  // bits of a channel that a bin leaves out
-  static constexpr std::size_t kBins = 4096;
-
+  bool is_empty() const { return log_odds_.size() == 0; }
+  /// Returns the log odds that a pixel is the model's, by bin; 0 for colours never seen.
+  std::span<const float> log_odds() const {
+    return {log_odds_.data(), log_odds_.data() + log_odds_.size()};
+  }
+  /// Returns a colour's bin: the upper four bits of each channel, blue first.
   static std::size_t bin_of(const cv::Vec3b& color) {
-    return static_cast<std::size_t>((color[0] >> kShift) << 8 | (color[1] >> kShift) << 4 |
-                                    color[2] >> kShift);
+    return static_cast<std::size_t>((color[0] >> 4) << 8 | (color[1] >> 4) << 4 | color[2] >> 4);
   }
 
+ private:
+  static constexpr Eigen::Index kBins = 4096;
+
   struct Side {
-    std::vector<float> shares = std::vector<float>(kBins, 0.0f);
-    std::vector<int> counts = std::vector<int>(kBins, 0);
+    Eigen::ArrayXf shares = Eigen::ArrayXf::Zero(kBins);
+    Eigen::ArrayXi counts = Eigen::ArrayXi::Zero(kBins);
     int sum = 0;
     void mix(float weight);
   };
 
   Side on_, beside_;
-  std::vector<float> log_odds_;  ///< by bin; empty before learn()
+  Eigen::ArrayXf log_odds_;  ///< by bin; empty before learn()
 };
 
 }  // namespace hypotrack::contour

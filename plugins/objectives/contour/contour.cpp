@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -49,6 +50,24 @@ void set_pose(const Eigen::Isometry3d& pose, int offset, Eigen::VectorXd& state)
   state.segment<kPoseSize>(offset) << pose.translation(), q.w(), q.vec();
 }
 
+Eigen::Isometry3f camera_from_model(const TileCamera& camera, const Eigen::VectorXd& state,
+                                    int offset) {
+  return (camera.camera_from_world * pose_of(state, offset)).cast<float>();
+}
+
+/// Returns how far a model is from a camera along its axis.
+float distance_of(const ContourViews& contours, const Eigen::Isometry3f& camera_from_model) {
+  return (camera_from_model * contours.centre()).z();
+}
+
+/// Returns the colours of a view, with 0 as the fourth channel where its camera has no pixel.
+cv::Mat4b with_validity(const TileView& view) {
+  cv::Mat4b out;
+  cv::cvtColor(view.color, out, cv::COLOR_BGR2BGRA);
+  out.setTo(cv::Scalar::all(0), view.valid == 0);
+  return out;
+}
+
 }  // namespace
 
 Contour::Contour(const Params& params, const Scene& scene, const PluginLog& log) : params_(params) {
@@ -68,7 +87,8 @@ void Contour::do_prepare(const Observation& observation) {
   lines_.clear();
   depths_.clear();
   refined_ = observation.start;
-  for (const RigidModel& model : models_) fit(model, observation.views);
+  const std::vector<Picture> pictures = pictures_of(observation);
+  for (const RigidModel& model : models_) fit(model, observation, pictures);
 }
 
 void Contour::learn(const Observation& observation) {
@@ -88,19 +108,16 @@ void Contour::learn(const Observation& observation) {
 void Contour::learn_from(const Eigen::VectorXd& state, const std::vector<TileView>& views,
                          double weight) {
   constexpr double kLeastShown = 0.5;
-  for (RigidModel& model : models_) {
-    const Eigen::Isometry3d pose = pose_of(state, model.offset);
-    for (std::size_t i = 0; i < views.size(); ++i) {
-      if (views[i].color.empty()) continue;
-      const Eigen::Isometry3f camera_from_model =
-          (views[i].camera.camera_from_world * pose).cast<float>();
-      TileView view = views[i];
-      if (const cv::Mat1b covered = hidden(model, state, view.camera); !covered.empty()) {
-        view.valid = view.valid.clone();
-        view.valid.setTo(0, covered);
-      }
-      const double shown = count_colors(model.contours.seen_by(camera_from_model),
-                                        camera_from_model, view, model.colors[i]);
+  constexpr float kReach = 0.125f;  // of the model's extent
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].color.empty()) continue;
+    const cv::Mat1f nearest = this->nearest(state, views[i].camera);
+    for (RigidModel& model : models_) {
+      const Eigen::Isometry3f pose = camera_from_model(views[i].camera, state, model.offset);
+      const float reach = kReach * extent_of(model.contours, pose, views[i].camera);
+      const double shown = count_colors(model.contours.seen_by(pose), pose,
+                                        {&views[i], nearest, distance_of(model.contours, pose)},
+                                        reach, model.colors[i]);
       if (shown < kLeastShown)
         model.colors[i].discard();
       else
@@ -109,48 +126,54 @@ void Contour::learn_from(const Eigen::VectorXd& state, const std::vector<TileVie
   }
 }
 
-cv::Mat1b Contour::hidden(const RigidModel& model, const Eigen::VectorXd& state,
-                          const TileCamera& camera) const {
-  const auto placed = [&](const RigidModel& any) {
-    return Eigen::Isometry3f((camera.camera_from_world * pose_of(state, any.offset)).cast<float>());
-  };
-  const auto distance = [&](const RigidModel& any) {
-    return (placed(any) * any.contours.centre()).z();
-  };
-  cv::Mat1b out;
-  for (const RigidModel& other : models_) {
-    if (&other == &model || distance(other) >= distance(model)) continue;
-    const Eigen::Isometry3f pose = placed(other);
-    const cv::Mat1b covered = covered_by(other.contours.seen_by(pose), pose, camera);
-    if (out.empty())
-      out = covered;
-    else
-      out |= covered;
+std::vector<Contour::Picture> Contour::pictures_of(const Observation& observation) const {
+  std::vector<Picture> out;
+  for (std::size_t i = 0; i < observation.views.size(); ++i) {
+    const TileView& view = observation.views[i];
+    if (!view.color.empty())
+      out.push_back({&view, i, with_validity(view), nearest(observation.start, view.camera)});
   }
   return out;
 }
 
-void Contour::fit(const RigidModel& model, const std::vector<TileView>& views) {
+cv::Mat1f Contour::nearest(const Eigen::VectorXd& state, const TileCamera& camera) const {
+  if (models_.size() < 2) return {};
+  cv::Mat1f out(camera.height, camera.width, std::numeric_limits<float>::infinity());
+  for (const RigidModel& model : models_) {
+    const Eigen::Isometry3f pose = camera_from_model(camera, state, model.offset);
+    add_cover(model.contours.seen_by(pose), pose, camera, distance_of(model.contours, pose), out);
+  }
+  return out;
+}
+
+void Contour::fit(const RigidModel& model, const Observation& observation,
+                  const std::vector<Picture>& pictures) {
   std::vector<RegionView> regions;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].color.empty() || model.colors[i].is_empty()) continue;
-    cv::Mat with_alpha, color;
-    cv::cvtColor(views[i].color, with_alpha, cv::COLOR_BGR2BGRA);
-    with_alpha.convertTo(color, CV_32F);
-    regions.push_back({&views[i].camera, color,
-                       model.colors[i].log_odds(views[i].color, views[i].valid),
-                       hidden(model, refined_, views[i].camera)});
+  for (const Picture& picture : pictures) {
+    const ColorHistograms& colors = model.colors[picture.index];
+    if (colors.is_empty()) continue;
+    const TileCamera& camera = picture.view->camera;
+    // Distances stay those of the start, so that no model is behind another that it was before.
+    const float distance =
+        distance_of(model.contours, camera_from_model(camera, observation.start, model.offset));
+    regions.push_back({&camera, {picture.color, colors.log_odds()}, picture.nearest, distance});
   }
   DepthViews depth{.points = model.surface, .views = {}, .sigma = params_.depth_sigma};
-  for (const TileView& view : views)
+  for (const TileView& view : observation.views)
     if (params_.depth_sigma > 0 && !view.depth.empty()) depth.views.push_back(&view);
   const Eigen::Isometry3d pose =
       fit_region(model.contours, pose_of(refined_, model.offset), regions, depth);
   set_pose(pose, model.offset, refined_);
-  for (const RegionView& region : regions) {
-    constexpr double kReach = 0.1;  // of a tile: a tenth of the model's size
+  for (RegionView& region : regions) {
+    const Eigen::Isometry3f here = camera_from_model(*region.camera, refined_, model.offset);
+    if (!region.nearest.empty()) {  // models that are fitted later see this one where it is now
+      add_cover(model.contours.seen_by(here), here, *region.camera, region.distance,
+                region.nearest);
+    }
+    constexpr double kReach = 0.1;  // of the model's extent
     lines_.push_back({*region.camera, model.offset, 1.0 / static_cast<double>(regions.size()),
-                      kReach * region.camera->width, lines_of(model.contours, pose, region, 1)});
+                      kReach * double{extent_of(model.contours, here, *region.camera)},
+                      lines_of(model.contours, pose, region, 1)});
   }
   for (const TileView* view : depth.views)
     depths_.push_back({model.offset, depth.sigma, 1.0 / static_cast<double>(depth.views.size()),

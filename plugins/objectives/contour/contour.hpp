@@ -73,14 +73,23 @@ class Contour : public Objective, public ResidualTerm {
     std::vector<TileView> views;
   };
 
+  /// A view with colour, for all models.
+  struct Picture {
+    const TileView* view;
+    std::size_t index;  ///< of the view
+    cv::Mat4b color;    ///< as in RegionPixels
+    cv::Mat1f nearest;  ///< see RegionView
+  };
+
   void learn(const Observation& observation);
   /// Learns from the outlines of a state. Nothing is learned of a model that is hardly in the tile.
   void learn_from(const Eigen::VectorXd& state, const std::vector<TileView>& views, double weight);
-  /// Returns where in a view other models of a state are nearer than one; empty: nowhere.
-  cv::Mat1b hidden(const RigidModel& model, const Eigen::VectorXd& state,
-                   const TileCamera& camera) const;
+  std::vector<Picture> pictures_of(const Observation& observation) const;
+  /// Returns the distances of the models next to the camera; empty if there is one model only.
+  cv::Mat1f nearest(const Eigen::VectorXd& state, const TileCamera& camera) const;
   /// Fits a model to the views and adds its lines.
-  void fit(const RigidModel& model, const std::vector<TileView>& views);
+  void fit(const RigidModel& model, const Observation& observation,
+           const std::vector<Picture>& pictures);
 
   Params params_;
   std::vector<RigidModel> models_;

@@ -47,15 +47,19 @@ ContourViews::ContourViews(const Eigen::Vector3f& centre, Eigen::Matrix3Xf direc
                            std::vector<std::uint32_t> first, std::vector<ContourPoint> points)
     : centre_(centre),
       directions_(std::move(directions)),
+      by_axis_(directions_.transpose()),
       first_(std::move(first)),
-      points_(std::move(points)) {}
+      points_(std::move(points)) {
+  for (const ContourPoint& point : points_)
+    radius_ = std::max(radius_, (point.position - centre_).norm());
+}
 
 std::span<const ContourPoint> ContourViews::seen_by(
     const Eigen::Isometry3f& camera_from_model) const {
   const Eigen::Vector3f to_camera = camera_from_model.inverse().translation() - centre_;
-  Eigen::Index view = 0;
-  (to_camera.transpose() * directions_).maxCoeff(&view);
-  const auto i = static_cast<std::size_t>(view);
+  const Eigen::VectorXf cosines = by_axis_ * to_camera;
+  const float highest = cosines.maxCoeff();
+  const auto i = static_cast<std::size_t>(std::ranges::find(cosines, highest) - cosines.begin());
   return std::span(points_).subspan(first_[i], first_[i + 1] - first_[i]);
 }
 

@@ -32,6 +32,8 @@ class ContourViews {
   std::span<const ContourPoint> seen_by(const Eigen::Isometry3f& camera_from_model) const;
 
   const Eigen::Vector3f& centre() const { return centre_; }
+  /// Returns the radius of a ball about the centre that holds all points.
+  float radius() const { return radius_; }
   const Eigen::Matrix3Xf& directions() const { return directions_; }
   std::span<const std::uint32_t> first() const { return first_; }
   std::span<const ContourPoint> points() const { return points_; }
@@ -39,8 +41,10 @@ class ContourViews {
  private:
   Eigen::Vector3f centre_;
   Eigen::Matrix3Xf directions_;
+  Eigen::MatrixX3f by_axis_;  ///< the same, a column for each axis: several fit into a vector
   std::vector<std::uint32_t> first_;
   std::vector<ContourPoint> points_;
+  float radius_ = 0;
 };
 
 /// Returns the corners of an icosahedron whose triangles are split into four `subdivisions` times:

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "hypotrack/plugin/pixel.hpp"
-#include "line_distribution.hpp"
-
 namespace hypotrack::contour {
 namespace {
 
@@ -14,48 +11,32 @@ constexpr float kClosest = 0.01f;  // metres from the camera
 constexpr float kFarthest = 1e6f;  // pixels
 constexpr float kLeast = 3;        // segments that a part must be wide, and the gap beside it
 
-/// Sums the log odds of the pixels of each segment of a line. Pixels beside the picture say
-/// nothing.
-Segments sum_segments(const cv::Mat1f& log_odds, const SeenPoint& point, int scale) {
-  Segments out{};
-  const float from = -0.5f * static_cast<float>(kSegments * scale - 1);
-  Eigen::Vector2f at = point.pixel + from * point.normal;
-  for (float& segment : out)
-    for (int i = 0; i < scale; ++i, at += point.normal) {
-      if (!(at.x() > -0.5f) || !(at.y() > -0.5f)) continue;
-      const int x = static_cast<int>(at.x() + 0.5f), y = static_cast<int>(at.y() + 0.5f);
-      if (x < log_odds.cols && y < log_odds.rows) segment += log_odds(y, x);
-    }
-  return out;
+/// Finds the pixel at a place of a picture. Returns false beside the picture.
+inline bool find_pixel(const Eigen::Vector2f& place, const cv::Size& size, cv::Point& pixel) {
+  const float x = place.x() + 0.5f, y = place.y() + 0.5f;
+  pixel = {static_cast<int>(x), static_cast<int>(y)};
+  return x >= 0 && y >= 0 && pixel.x < size.width && pixel.y < size.height;
 }
 
-/// Returns whether most segments just inside a place show colours that were seen on neither side:
-/// something else is before the model.
-bool is_hidden(const Segments& log_odds, const Place& place) {
-  constexpr float kNoEvidence = 1e-4f;
-  constexpr int kInside = kSupport / 2;
-  int unseen = 0;
-  for (int k = 0; k < kSegments; ++k) {
-    const float off = from_middle(k) - place.mean;
-    if (off < 0 && off >= -kInside && std::abs(log_odds[static_cast<std::size_t>(k)]) < kNoEvidence)
-      ++unseen;
-  }
-  return 2 * unseen > kInside;
-}
-
-/// Returns the place of the outline on a line; nothing where the model is hidden. Lines of
-/// one-pixel segments are refined.
-std::optional<Place> place_of(const SeenPoint& point, const RegionView& view, int scale) {
-  const Segments log_odds = sum_segments(view.log_odds, point, scale);
-  Segments likeness;
-  for (std::size_t k = 0; k < likeness.size(); ++k)
-    likeness[k] = 2 / (1 + pixel::exp(-log_odds[k])) - 1;
-  const Place place = find_place(likeness);
-  if (is_hidden(log_odds, place)) return std::nullopt;
-  return scale > 1 ? place : refine_place(place, view.color, point.pixel, point.normal);
+/// Returns whether a line can be looked at: wide enough on both sides, in the picture, not behind
+/// another model.
+bool is_open(const SeenPoint& point, const RegionView& view, float segment) {
+  if (std::min(point.inside, point.outside) < kLeast * segment) return false;
+  cv::Point pixel;
+  if (!find_pixel(point.pixel, view.pixels.color.size(), pixel)) return false;
+  return view.nearest.empty() || view.nearest(pixel) >= view.distance;
 }
 
 }  // namespace
+
+float extent_of(const ContourViews& model, const Eigen::Isometry3f& camera_from_model,
+                const TileCamera& camera) {
+  constexpr float kWithPadding = 1.5f;  // on both sides, and where perspective makes it wider
+  const float z = (camera_from_model * model.centre()).z();
+  const float own = kWithPadding * 2 * model.radius() * static_cast<float>(camera.fx) / z;
+  return z > kClosest ? std::min(own, static_cast<float>(camera.width))
+                      : static_cast<float>(camera.width);
+}
 
 std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f& camera_from_model,
                               const TileCamera& camera) {
@@ -85,58 +66,70 @@ std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f
 std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline,
                                            const Eigen::Isometry3f& camera_from_model,
                                            const RegionView& view, int scale) {
-  std::vector<CorrespondenceLine> out;
   const auto pixels = static_cast<float>(scale);
+  std::vector<const ContourPoint*> points;
+  std::vector<PixelLine> across;
   for (const ContourPoint& point : outline) {
     const std::optional<SeenPoint> here = seen(point, camera_from_model, *view.camera);
-    if (!here || std::min(here->inside, here->outside) < kLeast * pixels) continue;
-    const int x = static_cast<int>(std::floor(here->pixel.x() + 0.5f));
-    const int y = static_cast<int>(std::floor(here->pixel.y() + 0.5f));
-    if (x < 0 || y < 0 || x >= view.color.cols || y >= view.color.rows) continue;
-    if (!view.hidden.empty() && view.hidden(y, x) != 0) continue;
-    const std::optional<Place> place = place_of(*here, view, scale);
-    if (!place) continue;
-    out.push_back({point.position, here->pixel, here->normal, place->mean * pixels,
-                   place->variance * pixels * pixels});
+    if (!here || !is_open(*here, view, pixels)) continue;
+    points.push_back(&point);
+    across.push_back({here->pixel, here->normal});
   }
+  std::vector<Place> places(points.size());
+  find_places(view.pixels, across, scale, places);
+  std::vector<CorrespondenceLine> out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::isfinite(places[i].variance))
+      out.push_back({points[i]->position, across[i].middle, across[i].normal,
+                     places[i].mean * pixels, places[i].variance * pixels * pixels});
   return out;
 }
 
-cv::Mat1b covered_by(std::span<const ContourPoint> outline,
-                     const Eigen::Isometry3f& camera_from_model, const TileCamera& camera) {
+void add_cover(std::span<const ContourPoint> outline, const Eigen::Isometry3f& camera_from_model,
+               const TileCamera& camera, float distance, cv::Mat1f& nearest) {
+  constexpr int kAround = 3;  // pixels: colours of the edge are mixtures
   std::vector<cv::Point> places, hull;
   for (const ContourPoint& point : outline)
     if (const std::optional<SeenPoint> here = seen(point, camera_from_model, camera))
       places.emplace_back(cvRound(here->pixel.x()), cvRound(here->pixel.y()));
-  cv::Mat1b out(camera.height, camera.width, uchar{0});
-  if (places.empty()) return out;
+  if (places.empty()) return;
   cv::convexHull(places, hull);
-  cv::fillConvexPoly(out, hull, 255);
-  constexpr int kAround = 7;  // pixels: colours of the edge are mixtures
-  cv::dilate(out, out, cv::Mat1b::ones(kAround, kAround));
-  return out;
+  cv::Rect box = cv::boundingRect(hull);
+  box -= cv::Point(kAround, kAround);
+  box += cv::Size(2 * kAround, 2 * kAround);
+  box &= cv::Rect({}, nearest.size());
+  if (box.empty()) return;
+  cv::Mat1b covered(box.size(), uchar{0});
+  for (cv::Point& corner : hull) corner -= box.tl();
+  cv::fillConvexPoly(covered, hull, 255);
+  cv::dilate(covered, covered, cv::Mat1b::ones(2 * kAround + 1, 2 * kAround + 1));
+  cv::Mat1f part = nearest(box);
+  part.setTo(distance, covered & (part > distance));
 }
 
 double count_colors(std::span<const ContourPoint> outline,
-                    const Eigen::Isometry3f& camera_from_model, const TileView& view,
-                    ColorHistograms& histograms) {
-  const cv::Mat3b color = view.color;
-  const cv::Mat1b valid = view.valid;
-  const float reach = static_cast<float>(color.cols) / 8;  // pixels from the outline
+                    const Eigen::Isometry3f& camera_from_model, const ColorView& seen_in,
+                    float reach, ColorHistograms& histograms) {
+  const cv::Mat3b color = seen_in.view->color;
+  const cv::Mat1b valid = seen_in.view->valid;
+  const bool is_alone = seen_in.nearest.empty();
+  const auto is_hidden = [&](const cv::Point& pixel) {
+    return !is_alone && seen_in.nearest(pixel) < seen_in.distance;
+  };
+  const cv::Size size = color.size();
   std::size_t shown = 0;
   const auto count = [&](Eigen::Vector2f at, const Eigen::Vector2f& step, float length, bool on) {
     at += step;  // pixels on the outline are mixtures
     for (float out = 2; out < std::min(length, reach); ++out) {
       at += step;
-      const int x = static_cast<int>(std::floor(at.x() + 0.5f));
-      const int y = static_cast<int>(std::floor(at.y() + 0.5f));
-      if (x < 0 || y < 0 || x >= color.cols || y >= color.rows || valid(y, x) == 0) return;
+      cv::Point pixel;
+      if (!find_pixel(at, size, pixel) || valid(pixel) == 0 || is_hidden(pixel)) return;
       if (on && out == 2) ++shown;
-      histograms.count(color(y, x), on);
+      histograms.count(color(pixel), on);
     }
   };
   for (const ContourPoint& point : outline) {
-    const std::optional<SeenPoint> here = seen(point, camera_from_model, view.camera);
+    const std::optional<SeenPoint> here = seen(point, camera_from_model, seen_in.view->camera);
     if (!here) continue;
     count(here->pixel, -here->normal, here->inside, true);
     count(here->pixel, here->normal, here->outside, false);

@@ -9,6 +9,7 @@
 #include "color_histograms.hpp"
 #include "contour_views.hpp"
 #include "hypotrack/plugin/observation.hpp"
+#include "line_places.hpp"
 
 namespace hypotrack::contour {
 
@@ -20,17 +21,22 @@ struct SeenPoint {
   float inside, outside;   ///< pixels along the normal over which the model is seen, or is not
 };
 
+/// Returns the side, in pixels, of a tile that would hold the model alone; at most the view's. How
+/// far lines reach depends on it.
+float extent_of(const ContourViews& model, const Eigen::Isometry3f& camera_from_model,
+                const TileCamera& camera);
+
 /// Returns how a camera sees a point of the outline. Nothing behind the camera, or where an edge is
 /// no longer the outline.
 std::optional<SeenPoint> seen(const ContourPoint& point, const Eigen::Isometry3f& camera_from_model,
                               const TileCamera& camera);
 
-/// A view with the log odds of its pixels (ColorHistograms::log_odds()).
+/// A view as the lines of one model see it.
 struct RegionView {
   const TileCamera* camera;
-  cv::Mat4f color;  ///< blue, green and red, 0 to 255
-  cv::Mat1f log_odds;
-  cv::Mat1b hidden = {};  ///< not 0 where another model is before this one; empty: nowhere
+  RegionPixels pixels;
+  cv::Mat1f nearest = {};  ///< add_cover() of all models; empty: there is one only
+  float distance = 0;      ///< of this model in it: nearer ones hide it
 };
 
 /// A straight line of pixels across the outline, with the distribution of where along it the
@@ -46,22 +52,29 @@ struct CorrespondenceLine {
 /// Finds the lines of one model in one view (M. Stoiber, M. Pfanne, K. H. Strobl, R. Triebel,
 /// A. Albu-Schaeffer, "SRT3D: A sparse region-based 3D object tracking approach for the real
 /// world", IJCV 2022, section 3): pixels are independent, `scale` of them in a row make a segment,
-/// and a smoothed step says how the probability of the model falls across the outline. Lines of
-/// one-pixel segments are refined (refine_place()). Lines across
-/// thin parts are left out, and those where another model or unknown colours hide the model.
+/// and a smoothed step says how the probability of the model falls across the outline
+/// (find_places()). Lines across thin parts are left out, and those where another model or unknown
+/// colours hide the model.
 std::vector<CorrespondenceLine> find_lines(std::span<const ContourPoint> outline,
                                            const Eigen::Isometry3f& camera_from_model,
                                            const RegionView& view, int scale);
 
-/// Returns a mask of a view's pixels within the convex hull of a model's outline, and three pixels
-/// around it.
-cv::Mat1b covered_by(std::span<const ContourPoint> outline,
-                     const Eigen::Isometry3f& camera_from_model, const TileCamera& camera);
+/// Lowers the distances of the models next to a camera to that of one model, at its pixels: within
+/// the convex hull of its outline, and three pixels around it.
+void add_cover(std::span<const ContourPoint> outline, const Eigen::Isometry3f& camera_from_model,
+               const TileCamera& camera, float distance, cv::Mat1f& nearest);
 
-/// Counts the colours on both sides of a model's outline in a view. Returns the share of the
-/// outline that lies in the picture.
+/// What a view shows of one model.
+struct ColorView {
+  const TileView* view;
+  const cv::Mat1f& nearest;  ///< and the model's distance: see RegionView
+  float distance;
+};
+
+/// Counts the colours up to `reach` pixels from a model's outline in a view, on both sides. Returns
+/// the share of the outline that lies in the picture.
 double count_colors(std::span<const ContourPoint> outline,
-                    const Eigen::Isometry3f& camera_from_model, const TileView& view,
-                    ColorHistograms& histograms);
+                    const Eigen::Isometry3f& camera_from_model, const ColorView& seen_in,
+                    float reach, ColorHistograms& histograms);
 
 }  // namespace hypotrack::contour

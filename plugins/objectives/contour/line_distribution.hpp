@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
-#include <opencv2/core/mat.hpp>
+#include <cmath>
 
 namespace hypotrack::contour {
 
@@ -10,33 +9,32 @@ inline constexpr int kSteps = 12;   ///< places of the outline on a line, one se
 inline constexpr int kSupport = 8;  ///< segments about a place that say whether it is there
 inline constexpr int kSegments = kSteps + kSupport - 1;
 
-/// A number for each segment of a line, from inside the model outwards. The outline is expected in
-/// the middle.
-using Segments = std::array<float, kSegments>;
-
-/// Returns the distance of a segment from the middle of its line, in segments.
-inline float from_middle(int segment) {
+/// Returns the distance of a segment from the middle of its line, in segments. Segments follow each
+/// other from inside the model outwards; the outline is expected in the middle.
+constexpr float from_middle(int segment) {
   return static_cast<float>(segment) - static_cast<float>(kSegments - 1) / 2;
 }
 
-/// Where along a line the outline is, in segments from its middle, outwards.
-struct Place {
-  float mean;
-  float variance;
+/// Where along a line the outline is, in segments from its middle, outwards. `F` is a number, or
+/// one per lane.
+template <class F>
+struct PlaceOf {
+  F mean;
+  F variance;
 };
+using Place = PlaceOf<float>;
 
-/// Returns the distribution of the outline's place. `likeness` has, for each segment, twice the
-/// probability that it shows the model, less 1. Across the outline the expected probability falls
-/// as a smoothed step (SRT3D, equation 4).
-Place find_place(const Segments& likeness);
-
-/// Refines the outline's place on a line of one-pixel segments. Pixels on the outline show a
-/// mixture of both sides, which histograms take for background: a plain box then looks smaller by
-/// a third of a pixel. So the share of the model in each pixel is found between the line's mean
-/// colours on both sides of `place`. Lines of little contrast stay as they are. Where both ways
-/// disagree, the variance grows.
-/// `middle` is the line's middle in the image (BGR, 0 to 255), `normal` points outwards.
-Place refine_place(const Place& place, const cv::Mat4f& color, const Eigen::Vector2f& middle,
-                   const Eigen::Vector2f& normal);
+/// Returns twice the expected probability of the model less 1, for each segment about a place. The
+/// amplitude below 1 allows for pixels of the other side.
+inline std::array<float, kSupport> make_step() {
+  constexpr double kAmplitude = 0.72, kSlope = 1;
+  std::array<float, kSupport> out{};
+  for (int i = 0; i < kSupport; ++i) {
+    const double x = i - (kSupport - 1) / 2.0;
+    out[static_cast<std::size_t>(i)] = static_cast<float>(-kAmplitude * std::tanh(x / 2 / kSlope));
+  }
+  return out;
+}
+inline const std::array<float, kSupport> kStep = make_step();
 
 }  // namespace hypotrack::contour

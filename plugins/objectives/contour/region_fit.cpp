@@ -19,10 +19,11 @@ constexpr int kFineSteps = 3;  // with segments of one pixel
 constexpr std::size_t kLeastRows = 12;
 
 /// Returns the segments' lengths in pixels, from coarse to fine. The lines of the first reach as
-/// far as a third of the tile.
-std::vector<int> scales(const TileCamera& camera) {
+/// far as a third of the extent of the model.
+std::vector<int> scales(float extent) {
   std::vector<int> out;
-  for (int scale = std::max(camera.width / 32, 1); scale > 1; scale /= 2) out.push_back(scale);
+  for (int scale = std::max(static_cast<int>(extent) / 32, 1); scale > 1; scale /= 2)
+    out.push_back(scale);
   out.insert(out.end(), kFineSteps, 1);
   return out;
 }
@@ -44,8 +45,7 @@ struct Equations {
       Vector6 row;
       row << arm.cross(slope), slope;
       const double weight = 1 / double{line.variance};
-      a.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-      g -= weight * double{line.mean} * row;
+      add(row, weight, -double{line.mean});
     }
     rows += all.size();
   }
@@ -58,14 +58,19 @@ struct Equations {
       Vector6 row;
       row << arm.cross(normal), normal;
       const double weight = 1 / (sigma * sigma);
-      a.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-      g -= weight * beyond(match, world_from_model) * row;
+      add(row, weight, -beyond(match, world_from_model));
     }
     rows += all.size();
   }
 
+  void add(const Vector6& row, double weight, double residual) {
+    const Vector6 weighted = weight * row;
+    a += weighted * row.transpose();
+    g += residual * weighted;
+  }
+
   Vector6 solve() const {
-    Matrix6 damped = a.selfadjointView<Eigen::Lower>();
+    Matrix6 damped = a;
     damped.diagonal().head<3>().array() += 1 / (kTurn * kTurn);
     damped.diagonal().tail<3>().array() += 1 / (kMove * kMove);
     return damped.ldlt().solve(-g);
@@ -92,7 +97,9 @@ Eigen::Isometry3d fit_region(const ContourViews& model, Eigen::Isometry3d world_
                              const std::vector<RegionView>& views, const DepthViews& depth) {
   if (views.empty()) return world_from_model;
   Eigen::Isometry3d pose = world_from_model;
-  for (const int scale : scales(*views.front().camera)) {
+  const TileCamera& first = *views.front().camera;
+  const Eigen::Isometry3f seen = (first.camera_from_world * pose).cast<float>();
+  for (const int scale : scales(extent_of(model, seen, first))) {
     Equations equations;
     for (const RegionView& view : views)
       equations.add(lines_of(model, pose, view, scale), *view.camera, pose);

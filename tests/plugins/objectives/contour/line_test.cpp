@@ -6,7 +6,9 @@
 
 #include "color_histograms.hpp"
 #include "correspondence_lines.hpp"
-#include "line_distribution.hpp"
+#include "every_target.hpp"
+#include "line_distribution-inl.hpp"
+#include "line_places.hpp"
 
 namespace hypotrack::contour {
 namespace {
@@ -26,10 +28,15 @@ cv::Mat3b edge_at(double edge, const cv::Vec3b& on = kOn, const cv::Vec3b& besid
   return out;
 }
 
-cv::Mat4f with_alpha(const cv::Mat3b& color) {
-  cv::Mat4b bytes;
-  cv::cvtColor(color, bytes, cv::COLOR_BGR2BGRA);
-  return cv::Mat4f(bytes);
+/// Returns a picture all of whose pixels are valid.
+cv::Mat4b with_alpha(const cv::Mat3b& color) {
+  cv::Mat4b out;
+  cv::cvtColor(color, out, cv::COLOR_BGR2BGRA);
+  return out;
+}
+
+float odds_of(const ColorHistograms& colors, const cv::Vec3b& color) {
+  return colors.log_odds()[ColorHistograms::bin_of(color)];
 }
 
 ColorHistograms learned(const cv::Vec3b& on = kOn, const cv::Vec3b& beside = kBeside) {
@@ -45,8 +52,7 @@ ColorHistograms learned(const cv::Vec3b& on = kOn, const cv::Vec3b& beside = kBe
 /// Returns the line across the edge at x = 30 of a picture.
 CorrespondenceLine line_in(const cv::Mat3b& color, int scale, const ColorHistograms& colors) {
   const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
-  const cv::Mat1b valid(60, 60, uchar{255});
-  const RegionView view{&camera, with_alpha(color), colors.log_odds(color, valid)};
+  const RegionView view{&camera, {with_alpha(color), colors.log_odds()}};
   const ContourPoint point{
       {0.3f, 0.3f, 1}, Eigen::Vector3f(1, 0, -0.3f).normalized(), {0, 0, 0}, {0, 0, 0}, 1, 1};
   const auto lines = find_lines({&point, 1}, Eigen::Isometry3f::Identity(), view, scale);
@@ -56,15 +62,9 @@ CorrespondenceLine line_in(const cv::Mat3b& color, int scale, const ColorHistogr
 
 TEST(Colors, AreTheModelsWhereTheyWereSeenOnIt) {
   const ColorHistograms colors = learned();
-  cv::Mat3b picture(1, 3);
-  picture(0, 0) = kOn;
-  picture(0, 1) = kBeside;
-  picture(0, 2) = {0, 255, 0};  // never seen
-  const cv::Mat1f odds = colors.log_odds(picture, cv::Mat1b(1, 3, uchar{1}));
-  EXPECT_GT(odds(0, 0), 5);
-  EXPECT_LT(odds(0, 1), -5);
-  EXPECT_EQ(odds(0, 2), 0);
-  EXPECT_EQ(cv::countNonZero(colors.log_odds(picture, cv::Mat1b(1, 3, uchar{0}))), 0);
+  EXPECT_GT(odds_of(colors, kOn), 5);
+  EXPECT_LT(odds_of(colors, kBeside), -5);
+  EXPECT_EQ(odds_of(colors, {0, 255, 0}), 0);  // never seen
 }
 
 TEST(Colors, OfOneSideOnlyTeachNothing) {
@@ -81,24 +81,21 @@ TEST(Colors, OfLaterFramesAreMixedIn) {
     colors.count(kOn, false);
   }
   colors.learn(0.2);
-  cv::Mat3b picture(1, 1, kOn);
-  const cv::Mat1b valid(1, 1, uchar{1});
-  const float odds = colors.log_odds(picture, valid)(0, 0);
+  const float odds = odds_of(colors, kOn);
   EXPECT_NEAR(odds, std::log(0.8 / 0.2), 0.05);
   colors.count(kBeside, true);
   colors.discard();
   colors.learn(0.5);
-  EXPECT_EQ(colors.log_odds(picture, valid)(0, 0), odds);
+  EXPECT_EQ(odds_of(colors, kOn), odds);
 }
 
 TEST(LineDistribution, FindsTheStepWhereItIs) {
   float before = -6;
   for (int step = -4; step <= 4; ++step) {
     const auto edge = static_cast<float>(step) + 0.5f;
-    Segments likeness;
-    for (int k = 0; k < kSegments; ++k)
-      likeness[static_cast<std::size_t>(k)] = from_middle(k) < edge ? 0.95f : -0.95f;
-    const Place place = find_place(likeness);
+    float likeness[kSegments];
+    for (int k = 0; k < kSegments; ++k) likeness[k] = from_middle(k) < edge ? 0.95f : -0.95f;
+    const Place place = scalar::find_place(likeness);
     if (std::abs(step) < 3) {  // cut off at the line's ends
       EXPECT_NEAR(place.mean, edge, 0.2);
     }
@@ -109,7 +106,8 @@ TEST(LineDistribution, FindsTheStepWhereItIs) {
 }
 
 TEST(LineDistribution, IsWideWhereColorsSayNothing) {
-  const Place place = find_place(Segments{});
+  const float likeness[kSegments] = {};
+  const Place place = scalar::find_place(likeness);
   EXPECT_NEAR(place.mean, 0, 1e-5);
   EXPECT_NEAR(place.variance, (12.0 * 12 - 1) / 12, 1e-3);  // uniform over 12 places
 }
@@ -141,24 +139,139 @@ TEST(Line, IsNotPulledInwardsByMixturesThatTheGroundHasToo) {
 }
 
 TEST(Line, OfLittleContrastKeepsThePlaceOfItsHistograms) {
-  const cv::Vec3b on(100, 100, 100), beside(118, 100, 100);
-  const cv::Mat4f picture = with_alpha(edge_at(32, on, beside));
-  const Place place{1.5f, 0.7f};
-  const Place kept = refine_place(place, picture, {30, 30}, {1, 0});
-  EXPECT_EQ(kept.mean, place.mean);
-  EXPECT_EQ(kept.variance, place.variance);
+  const cv::Vec3b on(100, 100, 100), beside(118, 100, 100);  // in neighbouring bins
+  // The mixture of pixel 31 is in the model's bin.
+  EXPECT_NEAR(line_in(edge_at(31.2, on, beside), 1, learned(on, beside)).mean, 1.5, 0.1);
+  const cv::Vec3b clear(160, 100, 100);
+  EXPECT_NEAR(line_in(edge_at(31.2, on, clear), 1, learned(on, clear)).mean, 1.2, 0.1);
 }
 
 TEST(Line, IsLessSureWhereBothWaysDisagree) {
-  const cv::Mat4f picture = with_alpha(edge_at(30));
-  const Place near = refine_place({0, 0.5f}, picture, {30, 30}, {1, 0});
-  const Place far = refine_place({1.4f, 0.5f}, picture, {30, 30}, {1, 0});
-  EXPECT_GT(far.variance, near.variance + 2);
+  const cv::Mat3b picture = edge_at(30);
+  ColorHistograms misled = learned();
+  for (int i = 0; i < 4000; ++i) {
+    misled.count(picture(30, 30), true);  // the mixture
+    misled.count(kBeside, false);
+  }
+  misled.learn(0.5);
+  cv::Mat3b wide = picture.clone();
+  for (const int x : {31, 32}) wide.col(x).setTo(picture(30, 30));
+  EXPECT_GT(line_in(wide, 1, misled).variance, line_in(picture, 1, learned()).variance + 0.5f);
+}
+
+TEST(Line, BehindColoursNeverSeenIsLeftOut) {
+  const cv::Mat3b picture = edge_at(30, {0, 255, 0});
+  const ColorHistograms colors = learned();
+  const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
+  const RegionView view{&camera, {with_alpha(picture), colors.log_odds()}};
+  const ContourPoint point{{0.3f, 0.3f, 1}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1, 1};
+  EXPECT_TRUE(find_lines({&point, 1}, Eigen::Isometry3f::Identity(), view, 1).empty());
+}
+
+TEST(Line, DoesNotLookBesideTheCamerasPicture) {
+  cv::Mat4b picture = with_alpha(edge_at(30));
+  const ColorHistograms colors = learned();
+  Place all, cut;
+  const PixelLine line{{30, 30}, {1, 0}};
+  find_places({picture, colors.log_odds()}, {&line, 1}, 2, {&all, 1});
+  picture.colRange(31, 60).setTo(cv::Scalar::all(0));  // not even the colours of the ground
+  find_places({picture, colors.log_odds()}, {&line, 1}, 2, {&cut, 1});
+  EXPECT_GT(cut.variance, all.variance + 1);
+}
+
+/// Returns 37 lines, no whole number of vectors, across the edge at x = 30.
+std::vector<PixelLine> lines_across() {
+  std::vector<PixelLine> lines;
+  for (int i = 0; i < 37; ++i)
+    lines.push_back({{27 + 0.17f * static_cast<float>(i), 12 + static_cast<float>(i)},
+                     Eigen::Vector2f(1, 0.02f * static_cast<float>(i)).normalized()});
+  return lines;
+}
+
+TEST(Lines, AreFoundAloneAsTogether) {
+  const cv::Mat4b picture = with_alpha(edge_at(30.3));
+  const ColorHistograms colors = learned();
+  const std::vector<PixelLine> lines = lines_across();
+  for (const int scale : {1, 3}) {
+    std::vector<Place> together(lines.size());
+    find_places({picture, colors.log_odds()}, lines, scale, together);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      Place alone;
+      find_places({picture, colors.log_odds()}, {&lines[i], 1}, scale, {&alone, 1});
+      EXPECT_EQ(alone.mean, together[i].mean);
+      EXPECT_EQ(alone.variance, together[i].variance);
+    }
+  }
+}
+
+TEST(Lines, AreTheSameOnEveryInstructionSet) {
+  const cv::Mat4b picture = with_alpha(edge_at(30.3));
+  const ColorHistograms colors = learned();
+  const std::vector<PixelLine> lines = lines_across();
+  std::vector<Place> usual(lines.size()), found(lines.size());
+  for (const int scale : {1, 3}) {
+    find_places({picture, colors.log_odds()}, lines, scale, usual);
+    test::on_every_target(compiled_targets(), [&] {
+      find_places({picture, colors.log_odds()}, lines, scale, found);
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        EXPECT_NEAR(found[i].mean, usual[i].mean, 1e-3);
+        EXPECT_NEAR(found[i].variance, usual[i].variance, 1e-3 * double{usual[i].variance});
+      }
+    });
+  }
+}
+
+TEST(Line, BehindAnotherModelIsLeftOut) {
+  const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
+  const ColorHistograms colors = learned();
+  const ContourPoint point{{0.3f, 0.3f, 1}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1, 1};
+  RegionView view{&camera, {with_alpha(edge_at(30)), colors.log_odds()}};
+  view.nearest = cv::Mat1f(60, 60, 0.8f);
+  const auto count = [&](float distance) {
+    view.distance = distance;
+    return find_lines({&point, 1}, Eigen::Isometry3f::Identity(), view, 1).size();
+  };
+  EXPECT_EQ(count(1), 0u);
+  EXPECT_EQ(count(0.8f), 1u);  // it is the nearest one itself
+}
+
+TEST(Cover, ReachesThreePixelsBeyondTheHullAndNotBehindNearerModels) {
+  const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
+  std::vector<ContourPoint> square;
+  for (const float x : {0.2f, 0.4f})
+    for (const float y : {0.1f, 0.3f})
+      square.push_back({{x, y, 1}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1, 1});
+  cv::Mat1f nearest(60, 60, 2.0f);
+  nearest.rowRange(0, 15) = 0.5f;
+  add_cover(square, Eigen::Isometry3f::Identity(), camera, 1, nearest);
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const bool covered = x >= 17 && x <= 43 && y >= 7 && y <= 33;
+      EXPECT_EQ(nearest(y, x), y < 15 ? 0.5f : covered ? 1 : 2) << x << " " << y;
+    }
+  square.resize(1);
+  square[0].position = {90, 90, 1};  // far beside the picture
+  add_cover(square, Eigen::Isometry3f::Identity(), camera, 0.1f, nearest);
+  EXPECT_GE(*std::ranges::min_element(nearest), 0.5f);
+}
+
+TEST(Extent, IsThatOfATileOfTheModelAlone) {
+  const TileCamera camera{400, 400, 800, 800, 200, 200, Eigen::Isometry3d::Identity()};
+  const ContourPoint point{{0.05f, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, 1, 1};
+  const ContourViews model({0, 0, 0}, sphere_directions(0), std::vector<std::uint32_t>(13, 0),
+                           {point});
+  const auto at = [&](float z) {
+    return extent_of(model, Eigen::Isometry3f(Eigen::Translation3f(0, 0, z)), camera);
+  };
+  EXPECT_NEAR(at(1), 1.5 * 2 * 0.05 * 800, 0.1);
+  EXPECT_EQ(at(0.1f), 400);
+  EXPECT_EQ(at(-1), 400);
 }
 
 TEST(Line, AcrossAThinPartIsLeftOut) {
   const TileCamera camera{60, 60, 100, 100, 0, 0, Eigen::Isometry3d::Identity()};
-  const RegionView view{&camera, with_alpha(edge_at(30)), cv::Mat1f(60, 60, 1.0f)};
+  const ColorHistograms colors = learned();
+  const RegionView view{&camera, {with_alpha(edge_at(30)), colors.log_odds()}};
   const auto count = [&](float inside, float outside, int scale) {
     const ContourPoint point{{0.3f, 0.3f, 1}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}, inside, outside};
     return find_lines({&point, 1}, Eigen::Isometry3f::Identity(), view, scale).size();
