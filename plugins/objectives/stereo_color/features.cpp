@@ -39,36 +39,59 @@ cv::Mat3f convert(const cv::Mat3b& bgr, const Params& params) {
   return out;
 }
 
-std::vector<std::uint8_t> to_vector(const cv::Mat1b& image) { return {image.begin(), image.end()}; }
+std::vector<std::uint8_t> to_vector(const cv::Mat1b& image) {
+  std::vector<std::uint8_t> out;
+  out.reserve(image.total());
+  for (int y = 0; y < image.rows; ++y) out.insert(out.end(), image[y], image[y] + image.cols);
+  return out;
+}
 
 std::vector<float> weights(const TileView& view, const Params& params) {
   const cv::Mat3b bgr = view.color;
   const std::vector<std::uint8_t> valid = to_vector(view.valid);
-  std::vector<float> c;
-  if (params.distinctiveness == Distinctiveness::none) {
-    c.assign(valid.size(), 1.0f);
-  } else {
+  std::vector<float> c(valid.size(), 1.0f);
+  if (params.distinctiveness != Distinctiveness::none) {
     std::vector<float> grey(valid.size());
     std::transform(bgr.begin(), bgr.end(), grey.begin(),
                    [](const cv::Vec3b& p) { return gray_level(to_bgr(p)); });
     c = distinctiveness(principal_curvatures(grey, valid, bgr.cols, bgr.rows), valid, params.w_t);
   }
   const bool masked = params.use_mask && !view.mask.empty();
-  const std::vector<std::uint8_t> kept = masked ? to_vector(view.mask) : valid;
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    if (!valid[i] || !kept[i]) c[i] = 0.0f;
-  }
+  for (std::size_t i = 0; i < c.size(); ++i) c[i] = valid[i] ? c[i] : 0.0f;
+  if (!masked) return c;
+  const std::vector<std::uint8_t> kept = to_vector(view.mask);
+  for (std::size_t i = 0; i < c.size(); ++i) c[i] = kept[i] ? c[i] : 0.0f;
   return c;
+}
+
+/// Packs colours that no conversion changes: as pack_unorm16() does with a 255th of each.
+void pack_bytes(const cv::Mat3b& bgr, const std::vector<float>& weights, Features& out) {
+  constexpr std::uint32_t kUnit = 65535 / 255;
+  for (int y = 0; y < bgr.rows; ++y) {
+    const cv::Vec3b* color = bgr[y];
+    const float* weight = weights.data() + static_cast<std::ptrdiff_t>(y) * bgr.cols;
+    std::uint32_t* first = out.channels_01.row(y);
+    std::uint32_t* rest = out.channel_2_weight.row(y);
+    for (int x = 0; x < bgr.cols; ++x) {
+      const std::uint32_t blue = color[x][0], green = color[x][1], red = color[x][2];
+      first[x] = kUnit * (red | green << 16);
+      rest[x] = kUnit * blue | pack_unorm16(0, weight[x]);
+    }
+  }
 }
 
 }  // namespace
 
 Features make_features(const TileView& view, const Params& params) {
-  const cv::Mat3f color = convert(view.color, params);
   const std::vector<float> c = weights(view, params);
   Features out;
-  out.channels_01.resize(color.cols, color.rows);
-  out.channel_2_weight.resize(color.cols, color.rows);
+  out.channels_01.resize(view.color.cols, view.color.rows);
+  out.channel_2_weight.resize(view.color.cols, view.color.rows);
+  if (params.color_space == ColorSpace::rgb && params.gray_weight == 1) {
+    pack_bytes(view.color, c, out);
+    return out;
+  }
+  const cv::Mat3f color = convert(view.color, params);
   for (int y = 0; y < color.rows; ++y) {
     const float* weight = c.data() + static_cast<std::ptrdiff_t>(y) * color.cols;
     for (int x = 0; x < color.cols; ++x) {
