@@ -5,12 +5,36 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+#include <vector>
+
+#include "tile/grid_lookup.hpp"
 
 namespace hypotrack::internal {
 namespace {
 
+/// Returns whether a camera's pictures are those of its ideal camera.
+bool is_plain(const LensMap& lens) {
+  for (int i = 0; i < 9; ++i)
+    if (lens.camera_from_ideal[i] != (i % 4 == 0 ? 1.0f : 0.0f)) return false;
+  return lens.lens == Lens::none;
+}
+
 cv::Mat inside_mask(const ImageMap& map, int size, cv::Size image) {
   cv::Mat valid(size, size, CV_8U);
+  if (map.is_grid) {
+    const auto flags = [&](const cv::Mat& positions, int end) -> cv::Mat {
+      cv::Mat inside;
+      cv::inRange(positions, -0.5, std::nextafter(static_cast<float>(end) - 0.5f, 0.0f), inside);
+      return inside;
+    };
+    const cv::Rect inner(1, 1, size, size);
+    const cv::Mat column = flags(map.x(inner).row(0), image.width);
+    const cv::Mat row = flags(map.y(inner).col(0), image.height);
+    valid.setTo(0);
+    for (int v = 0; v < size; ++v)
+      if (row.at<unsigned char>(v) != 0) column.copyTo(valid.row(v));
+    return valid;
+  }
   for (int v = 0; v < size; ++v) {
     const float* x = map.x.ptr<float>(v + 1) + 1;
     const float* y = map.y.ptr<float>(v + 1) + 1;
@@ -45,22 +69,30 @@ cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap
   return out;
 }
 
-/// Returns the positions of a tile's samples in the block means of the part that the plan touches.
-std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const ResamplePlan& plan) {
+/// Positions of a tile's samples in the block means of the part that its plan touches. Those of a
+/// grid have one row of x and one column of y.
+struct Lookups {
+  cv::Mat x, y;
+  bool is_grid;
+};
+
+Lookups lookups(const ImageMap& map, int size, const ResamplePlan& plan) {
   // Pixel centres are at integers, so a block's centre is half a block minus half a pixel in.
   const double factor = 1.0 / plan.reduction.blocks;
   const int samples = plan.reduction.samples;
+  constexpr int kFew = 3;  // equal rows or columns: a margin on either side of one
+  const cv::Mat columns = map.is_grid ? map.x.rowRange(0, kFew) : map.x;
+  const cv::Mat rows = map.is_grid ? map.y.colRange(0, kFew) : map.y;
   cv::Mat x, y;
-  map.x.convertTo(x, CV_32F, factor, (0.5 - plan.touched.x) * factor - 0.5);
-  map.y.convertTo(y, CV_32F, factor, (0.5 - plan.touched.y) * factor - 0.5);
+  columns.convertTo(x, CV_32F, factor, (0.5 - plan.touched.x) * factor - 0.5);
+  rows.convertTo(y, CV_32F, factor, (0.5 - plan.touched.y) * factor - 0.5);
   if (samples > 1) {
     // Linear interpolation of the map is accurate to about 0.001 pixels, because lenses are smooth.
-    const cv::Size fine(x.cols * samples, x.rows * samples);
-    cv::resize(x, x, fine, 0, 0, cv::INTER_LINEAR);
-    cv::resize(y, y, fine, 0, 0, cv::INTER_LINEAR);
+    for (cv::Mat* each : {&x, &y})
+      cv::resize(*each, *each, each->size() * samples, 0, 0, cv::INTER_LINEAR);
   }
-  const cv::Rect inner(samples, samples, size * samples, size * samples);
-  return {x(inner), y(inner)};
+  const cv::Range inner(samples, samples + size * samples), one(samples, samples + 1);
+  return {x(map.is_grid ? one : inner, inner), y(inner, map.is_grid ? one : inner), map.is_grid};
 }
 
 /// Applies a colour map to a tile (8-bit BGR).
@@ -78,9 +110,12 @@ cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
   return out;
 }
 
+std::vector<float> numbers_of(const cv::Mat1f& positions) {
+  return {positions.begin(), positions.end()};
+}
+
 /// Samples the part of an image that a plan touches at lookups().
-cv::Mat look_up(cv::Mat part, const std::pair<cv::Mat, cv::Mat>& at, int size,
-                const ReductionPlan& reduction) {
+cv::Mat look_up(cv::Mat part, const Lookups& at, int size, const ReductionPlan& reduction) {
   const auto [blocks, samples] = reduction;
   cv::Mat out;
   if (blocks > 1) {
@@ -88,7 +123,12 @@ cv::Mat look_up(cv::Mat part, const std::pair<cv::Mat, cv::Mat>& at, int size,
     cv::resize(part, means, part.size() / blocks, 0, 0, cv::INTER_AREA);
     part = means;
   }
-  cv::remap(part, out, at.first, at.second, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  if (at.is_grid && part.type() == CV_8UC3)
+    return look_up_grid(part, axis_places(numbers_of(at.x), part.cols),
+                        axis_places(numbers_of(at.y), part.rows), samples);
+  const cv::Mat x = at.is_grid ? cv::repeat(at.x, at.y.rows, 1) : at.x;
+  const cv::Mat y = at.is_grid ? cv::repeat(at.y, 1, at.x.cols) : at.y;
+  cv::remap(part, out, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   if (samples > 1) cv::resize(out, out, cv::Size(size, size), 0, 0, cv::INTER_AREA);
   return out;
 }
@@ -109,14 +149,19 @@ Resampler::Resampler(const Camera& camera, const Eigen::Matrix3d& camera_from_id
 ImageMap Resampler::map(const TileCamera& tile) const {
   const int columns = tile.width + 2;
   const int rows = tile.height + 2;
-  ImageMap map{cv::Mat(rows, columns, CV_32F), cv::Mat(rows, columns, CV_32F)};
+  ImageMap map{cv::Mat(rows, columns, CV_32F), cv::Mat(rows, columns, CV_32F), is_plain(lens_)};
   const TileIntrinsics camera = intrinsics(tile);
   for (int row = 0; row < rows; ++row) {
     auto* x = map.x.ptr<float>(row);
     auto* y = map.y.ptr<float>(row);
+    const auto v = static_cast<float>(row - 1);
+    if (map.is_grid && row > 0) {
+      std::copy_n(map.x.ptr<float>(0), columns, x);
+      std::fill_n(y, columns, image_point(lens_, camera, -1, v).y);
+      continue;
+    }
     for (int column = 0; column < columns; ++column) {
-      const ImagePoint p =
-          image_point(lens_, camera, static_cast<float>(column - 1), static_cast<float>(row - 1));
+      const ImagePoint p = image_point(lens_, camera, static_cast<float>(column - 1), v);
       x[column] = p.x;
       y[column] = p.y;
     }

@@ -15,6 +15,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Image positions of all pixels of a tile and a margin of one pixel.
 struct ImageMap {
   cv::Mat x, y;  ///< 32-bit float, (size + 2)^2; far outside where the camera cannot see
+  bool is_grid = false;  ///< the rows of x are equal, and the columns of y
 };
 
 /// Adds a brightness per pixel (32-bit float) to an image (8-bit BGR). An empty `by` adds nothing.
