@@ -76,8 +76,8 @@ std::vector<Eigen::Isometry3d> world_from_bones(const ModelData& data,
 
 namespace hypotrack::internal {
 
-Eigen::Matrix3Xf skin(const ModelData& data, std::span<const Eigen::Isometry3d> world_from_bone) {
-  const Mesh& mesh = data.mesh;
+Eigen::Matrix3Xf skin(const ModelData& data, const Mesh& mesh,
+                      std::span<const Eigen::Isometry3d> world_from_bone) {
   Bones world_from_bind = bind_transforms(data);
   for (std::size_t i = 0; i < world_from_bind.size(); ++i) {
     world_from_bind[i] = world_from_bone[i] * world_from_bind[i].inverse();
@@ -94,6 +94,12 @@ Eigen::Matrix3Xf skin(const ModelData& data, std::span<const Eigen::Isometry3d> 
     posed.col(v) = sum.cast<float>();
   }
   return posed;
+}
+
+Eigen::Matrix3Xf posed_vertices(const Model& model, const Mesh& mesh,
+                                std::span<const double> parameters) {
+  if (model.poses_itself()) return hypotrack::posed_vertices(model, parameters);
+  return skin(model.data(), mesh, world_from_bones(model.data(), parameters));
 }
 
 Eigen::Matrix3Xd place_landmarks(const ModelData& data,
@@ -122,7 +128,7 @@ Eigen::Matrix3Xd posed_landmarks(const Model& model, std::span<const double> par
 
 Eigen::Matrix3Xf posed_vertices(const Model& model, std::span<const double> parameters) {
   if (!model.poses_itself()) {
-    return skin(model.data(), world_from_bones(model.data(), parameters));
+    return skin(model.data(), model.data().mesh, world_from_bones(model.data(), parameters));
   }
   Eigen::Matrix3Xf vertices;
   Eigen::Matrix3Xd landmarks;

@@ -100,7 +100,7 @@ std::vector<std::string> Model::clear_landmarks() const {
 void Model::do_pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
                     Eigen::Matrix3Xd& landmarks) const {
   const auto bones = world_from_bones(data_, parameters);
-  vertices = skin(data_, bones);
+  vertices = skin(data_, data_.mesh, bones);
   landmarks = place_landmarks(data_, bones);
 }
 

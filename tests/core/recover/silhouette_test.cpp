@@ -51,6 +51,20 @@ TEST_F(SilhouetteTest, TrianglesOfTwoPixelsCoverTheirCorners) {
   EXPECT_EQ(cv::norm(drawn, expected, cv::NORM_INF), 0);
 }
 
+TEST_F(SilhouetteTest, FewerTrianglesStandForManyWhereTheModelHasThem) {
+  ModelData ball = test::make_test_ball(0.05f);
+  const Scene whole({{"ball", std::make_shared<Model>(ball)}});
+  ball.simplified = ball.mesh;
+  ball.simplified.vertices *= 0.5f;  // smaller, to be told from the mesh
+  const Scene fewer({{"ball", std::make_shared<Model>(ball)}});
+  Eigen::VectorXd state = whole.rest_state();
+  state.head<3>() << 0, 0, 0.5;
+  const auto pixels = [&](const Scene& scene) {
+    return cv::countNonZero(silhouettes(scene, {true}, state, camera_, 1));
+  };
+  EXPECT_NEAR(4.0 * pixels(fewer) / pixels(whole), 1, 0.1);
+}
+
 TEST_F(SilhouetteTest, NothingIsDrawnOfModelsThatAreNotAskedForOrBehind) {
   EXPECT_EQ(center({false, false}).x, -1);
   state_[2] = -0.5;

@@ -34,6 +34,17 @@ TEST(SurfacePoints, FollowTheVertices) {
   EXPECT_TRUE(shift.isApprox(Eigen::Vector3f(1, 2, 3).replicate(1, 50), 1e-5f));
 }
 
+TEST(SurfacePoints, AreThoseOfTheirCornersAlone) {
+  const Mesh mesh = test::make_test_ball(0.05f).mesh;
+  const SurfacePoints points = spread_points(mesh, 20);
+  SurfacePoints of_corners = points;
+  const Mesh corners = take_corners(mesh, of_corners);
+  EXPECT_LE(corners.vertices.cols(), 60);
+  EXPECT_EQ(corners.bone_weights.cols(), corners.vertices.cols());
+  EXPECT_EQ(corners.bone_indices.cols(), corners.vertices.cols());
+  EXPECT_EQ(positions(of_corners, corners.vertices), positions(points, mesh.vertices));
+}
+
 TEST(SurfacePoints, HaveTheColoursOfTheTexture) {
   Mesh mesh = test::make_test_box({0.1, 0.1, 0.001}).mesh;
   const SurfacePoints points = spread_points(mesh, 100);

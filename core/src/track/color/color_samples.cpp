@@ -101,7 +101,7 @@ bool seen_by_other(const DepthTile& other, const StereoMap& map, int x, int y, f
 }  // namespace
 
 struct ColorSampler::Impl {
-  explicit Impl(const Scene& scene) : plan(scene), drawer(plan) {}
+  explicit Impl(const Scene& scene) : plan(scene, ScenePlan::Surface::simplified), drawer(plan) {}
 
   ScenePlan plan;
   HypothesisDrawer drawer;

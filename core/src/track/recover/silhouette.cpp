@@ -5,7 +5,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "hypotrack/plugin/kinematics.hpp"
+#include "model/posing.hpp"
+#include "scene/mesh_topology.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -44,11 +45,13 @@ cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (!models[m]) continue;
     const Scene::Item& item = scene.items()[m];
-    const Eigen::Matrix3Xf vertices = posed_vertices(*item.model, scene.part(item, state));
+    const Mesh& mesh = simplified_mesh(*item.model);
+    const Eigen::Matrix3Xf vertices = posed_vertices(*item.model, mesh, scene.part(item, state));
     std::vector<Eigen::Vector2d> pixels;
+    pixels.reserve(static_cast<std::size_t>(vertices.cols()));
     for (const auto& vertex : vertices.colwise())
       pixels.push_back(project(camera, vertex.cast<double>()) / reduction);
-    for (const auto& triangle : item.model->data().mesh.triangles.colwise()) {
+    for (const auto& triangle : mesh.triangles.colwise()) {
       std::array<cv::Point, 3> corners;
       bool drawn = true;
       for (int i = 0; i < 3; ++i) {

@@ -67,6 +67,24 @@ SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count) {
   return out;
 }
 
+Mesh take_corners(const Mesh& mesh, SurfacePoints& points) {
+  std::vector<int> kept;
+  std::vector<int> number(static_cast<std::size_t>(mesh.vertices.cols()), -1);
+  for (int& corner : points.corners.reshaped()) {
+    int& own = number[static_cast<std::size_t>(corner)];
+    if (own < 0) {
+      own = static_cast<int>(kept.size());
+      kept.push_back(corner);
+    }
+    corner = own;
+  }
+  Mesh out;
+  out.vertices = mesh.vertices(Eigen::all, kept);
+  out.bone_indices = mesh.bone_indices(Eigen::all, kept);
+  out.bone_weights = mesh.bone_weights(Eigen::all, kept);
+  return out;
+}
+
 Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& vertices) {
   Eigen::Matrix3Xf out(3, points.count());
   for (Eigen::Index i = 0; i < points.count(); ++i)

@@ -24,6 +24,10 @@ struct SurfacePoints {
 /// Spreads points evenly over the area of a mesh. Returns none if it has no area.
 SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count);
 
+/// Returns a mesh of the vertices that are corners of points alone, without triangles; numbers the
+/// points' corners anew.
+Mesh take_corners(const Mesh& mesh, SurfacePoints& points);
+
 /// Returns the positions (3xN) of the points with the mesh's vertices at `vertices` (3xV).
 Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& vertices);
 

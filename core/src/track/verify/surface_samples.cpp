@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "cost/draw/hypothesis_drawer.hpp"
-#include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/stereo_pixels_map-inl.hpp"
 #include "hypotrack/plugin/view_pixels.hpp"
+#include "model/posing.hpp"
 #include "tile/tiles.hpp"
 #include "track/color_at.hpp"
 #include "track/verify/ready_threads.hpp"
@@ -87,7 +87,9 @@ struct SurfaceSampler::Impl {
         tiles(single, cameras, {grid_size, kSamplePadding}),
         single_plan(single, ScenePlan::Surface::simplified),
         single_drawer(single_plan),
-        surface(spread_points(item.model->data().mesh, kPoints)) {
+        surface(spread_points(item.model->data().mesh, kPoints)),
+        posed_surface(surface) {
+    if (!item.model->poses_itself()) corners = take_corners(item.model->data().mesh, posed_surface);
     if (scene.items().size() == 1) return;
     whole_plan = std::make_unique<ScenePlan>(scene, ScenePlan::Surface::simplified);
     whole_drawer = std::make_unique<HypothesisDrawer>(*whole_plan);
@@ -113,6 +115,8 @@ struct SurfaceSampler::Impl {
   ScenePlan single_plan;
   HypothesisDrawer single_drawer;
   SurfacePoints surface;
+  SurfacePoints posed_surface;  // with corners of the mesh that is posed
+  Mesh corners;                 // that mesh, unless the model poses itself
   std::unique_ptr<ScenePlan> whole_plan;
   std::unique_ptr<HypothesisDrawer> whole_drawer;
   FrameProjection projection;
@@ -201,8 +205,8 @@ std::vector<SurfaceSamples::Point> SurfaceSampler::Impl::points(const SampledVie
                                                                 const TileCamera& grid,
                                                                 const Eigen::VectorXd& part) const {
   const Eigen::Matrix3Xf vertices =
-      posed_vertices(*item.model, {part.data(), static_cast<std::size_t>(part.size())});
-  const Eigen::Matrix3Xd world = positions(surface, vertices).cast<double>();
+      posed_vertices(*item.model, corners, {part.data(), static_cast<std::size_t>(part.size())});
+  const Eigen::Matrix3Xd world = positions(posed_surface, vertices).cast<double>();
   std::vector<SurfaceSamples::Point> out(static_cast<std::size_t>(world.cols()));
   for (Eigen::Index i = 0; i < world.cols(); ++i) {
     const Eigen::Vector3d p = grid.camera_from_world * world.col(i);
