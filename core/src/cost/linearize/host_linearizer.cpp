@@ -206,7 +206,7 @@ struct HostLinearizer::Impl {
     const RenderedHypothesis hypothesis{state_of(states), neighbours.centre().tiles()};
     const Eigen::MatrixXd derivatives = state_derivatives(scene, states, steps);
     for (const ObjectiveTerm& term : jacobians) {
-      add_by_jacobian(term, hypothesis, derivatives, sums);
+      add_by_jacobian(scene, term, hypothesis, derivatives, sums);
     }
     if (views.empty()) return;
     write_slopes(hypothesis);
@@ -225,7 +225,7 @@ struct HostLinearizer::Impl {
     const Eigen::MatrixXd derivatives = state_derivatives(scene, states, steps);
     for (const ObjectiveTerm& term : others) {
       if (has_jacobian(term)) {
-        add_by_jacobian(term, hypothesis, derivatives, sums);
+        add_by_jacobian(scene, term, hypothesis, derivatives, sums);
       } else {
         add_by_differences(term, states, steps, sums);
       }

@@ -68,8 +68,9 @@ HWY_INLINE bool is_used(const float* rows, std::size_t count, std::size_t column
 }
 
 /// Computes sums += rows^T rows, above the diagonal in blocks of kBlock. Pixels of one part of the
-/// scene come together and depend on few columns.
-HWY_INLINE void multiply(const float* rows, std::size_t count, std::size_t columns, float* sums) {
+/// scene come together and depend on few columns. Columns behind the first `filled` are 0.
+HWY_INLINE void multiply(const float* rows, std::size_t count, std::size_t columns,
+                         std::size_t filled, float* sums) {
   constexpr std::size_t kSide = 8;
   constexpr std::size_t kWide = kBlock / kLanes;
   std::uint64_t used = 0;
@@ -77,7 +78,7 @@ HWY_INLINE void multiply(const float* rows, std::size_t count, std::size_t colum
     if (is_used(rows, count, columns, c)) used |= std::uint64_t{1} << (c / kBlock % 64);
   }
   const auto has = [&](std::size_t c) { return (used >> (c / kBlock % 64) & 1) != 0; };
-  for (std::size_t r = 0; r < columns; r += kSide) {
+  for (std::size_t r = 0; r < filled; r += kSide) {
     if (!has(r)) continue;
     for (std::size_t c = r / kBlock * kBlock; c < columns; c += kBlock) {
       if (!has(c)) continue;
@@ -302,7 +303,8 @@ class Walk {
   }
 
   void flush() {
-    multiply(rows_.get(), count_, work_.columns, work_.sums);
+    multiply(rows_.get(), count_, work_.columns, static_cast<std::size_t>(d_.dimension) + 1,
+             work_.sums);
     count_ = 0;
   }
 

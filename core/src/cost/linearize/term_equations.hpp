@@ -17,9 +17,12 @@ inline namespace HYPOTRACK_EXPORTED internal {
 Eigen::MatrixXd state_derivatives(const Scene& scene, const Eigen::MatrixXd& states,
                                   const Eigen::VectorXd& steps);
 
-/// Adds the normal equations of a term by its write_jacobian(). `derivatives`: of the state.
-void add_by_jacobian(const ObjectiveTerm& term, const RenderedHypothesis& hypothesis,
-                     const Eigen::MatrixXd& derivatives, NormalEquations& sums);
+/// Adds the normal equations of a term by its write_jacobian(). `derivatives`: of the state. Rows
+/// that follow each other and depend on the same models are multiplied within their columns alone:
+/// the time of many models rises with their number, and not with its square.
+void add_by_jacobian(const Scene& scene, const ObjectiveTerm& term,
+                     const RenderedHypothesis& hypothesis, const Eigen::MatrixXd& derivatives,
+                     NormalEquations& sums);
 
 /// Adds the normal equations of a term that needs no rendering, by differences between the
 /// residuals of a state (column 0) and its neighbours.
