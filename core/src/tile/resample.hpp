@@ -14,7 +14,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Image positions of all pixels of a tile and a margin of one pixel.
 struct ImageMap {
-  cv::Mat x, y;  ///< 32-bit float, (size + 2)^2; far outside where the camera cannot see
+  cv::Mat x, y;          ///< 32-bit float, (size + 2)^2; far outside where the camera cannot see
   bool is_grid = false;  ///< the rows of x are equal, and the columns of y
 };
 

@@ -12,7 +12,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Interpolates the colour (B, G, R) of an 8-bit image at a point. Returns false outside.
 template <class Color>
 bool color_at(const cv::Mat& image, const ImagePoint& p, Color& color) {
-  const auto is_within = [](float at, int size) { return at >= 0 && at < static_cast<float>(size - 1); };
+  const auto is_within = [](float at, int size) {
+    return at >= 0 && at < static_cast<float>(size - 1);
+  };
   if (!is_within(p.x, image.cols) || !is_within(p.y, image.rows)) return false;
   const int x = static_cast<int>(p.x), y = static_cast<int>(p.y);
   const float fx = p.x - static_cast<float>(x), fy = p.y - static_cast<float>(y);

@@ -61,7 +61,7 @@ class PictureWatch {
   std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() as of the last check()
   std::optional<int> searched_;            ///< frame whose learned colours it has not taken
   std::optional<std::pair<int, ColorMap>> colors_;  ///< of such a frame, to be looked at
-  SideWork looking_{"look at the rig"};    ///< beside the search
+  SideWork looking_{"look at the rig"};             ///< beside the search
 };
 
 }  // namespace internal
