@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Measures what each constant of the tracker earns, on sequences that show whether the tracker is right.
 
-    constants.py rewrite COPY [--keep NAME ...]    in a copy of the sources, so that the environment scales constants
-    constants.py run HYPOTRACK OUT [--jobs 16]     the program of that copy; runs configs/studies/constants.yaml
+    constants.py rewrite COPY [--keep NAME ...] > NAMES    in a copy of the sources: the environment scales constants
+    constants.py run HYPOTRACK OUT --names NAMES           the program of that copy; runs configs/studies/constants.yaml
 
-`rewrite` prints the constants' names. Build the copy; name with --keep those that the compiler needs as constants. `run`
+`rewrite` prints the constants' names: file:NAME, and file:NAME:2 for the second of that name. Build the copy; in a fresh
+one, name with --keep the constants that the compiler insists on. `run`
 scales each constant to nothing and to a thousand times itself, and writes OUT/constants.csv: whether that changes a metric
 of any sequence, and makes it worse than in unscaled runs with other noise. Run again, it goes on.
 """
 import argparse
+import collections
 import concurrent.futures
 import csv
 import json
@@ -25,6 +27,7 @@ HEADER = f"""\
 #pragma once
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 namespace {{
 template <class T>
 [[maybe_unused]] T scaled(const char* name, T value) {{
@@ -54,7 +57,8 @@ def arguments():
     running.add_argument("hypotrack", type=pathlib.Path)
     running.add_argument("out", type=pathlib.Path)
     running.add_argument("--names", type=pathlib.Path, required=True, help="file with what `rewrite` printed")
-    running.add_argument("--study", type=pathlib.Path, default=pathlib.Path(__file__).parents[2] / "configs/studies/constants.yaml")
+    running.add_argument("--study", type=pathlib.Path,
+                         default=pathlib.Path(__file__).parents[2] / "configs/studies/constants.yaml")
     running.add_argument("--jobs", type=int, default=os.cpu_count())
     running.add_argument("--time-limit", type=int, default=120, help="seconds of a sequence")
     return parser.parse_args()
@@ -77,10 +81,14 @@ def rewrite(folder, keep):
     names = []
     for path in sorted(folder.rglob("*.[ch]pp")):
         text, file = path.read_text(encoding="utf-8"), str(path.relative_to(folder))
+        count = collections.Counter()
 
         def variables(match):
             indent, words, kind, rest = match.groups()
-            parts = [(name, value, f"{file}:{name}") for name, value in declarators(rest)]
+            parts = []
+            for name, value in declarators(rest):
+                count[name] += 1
+                parts.append((name, value, f"{file}:{name}" + (f":{count[name]}" if count[name] > 1 else "")))
             if any(full in keep for _, _, full in parts):
                 return match[0]
             names.extend(full for _, _, full in parts)
@@ -92,7 +100,7 @@ def rewrite(folder, keep):
         new = STATEMENT.sub(variables, text)
         if new != text:
             path.write_text('#include "track/scaled.hpp"\n' + new, encoding="utf-8")
-    (folder / "scaled.hpp").write_text(HEADER.replace("<cstring>", "<cstring>\n#include <string_view>"), encoding="utf-8")
+    (folder / "scaled.hpp").write_text(HEADER, encoding="utf-8")
     return names
 
 
@@ -100,8 +108,8 @@ def call(options, log, *words, scaled=""):
     """Runs the program with a constant scaled; returns whether it ended well and in time."""
     with open(log, "w", encoding="utf-8") as file:
         try:
-            return subprocess.run([options.hypotrack, *words], env={**os.environ, VARIABLE: scaled}, check=False, stdout=file,
-                                  stderr=file, timeout=options.time_limit if scaled else None).returncode == 0
+            return subprocess.run([options.hypotrack, *words], env={**os.environ, VARIABLE: scaled}, check=False,
+                                  stdout=file, stderr=file, timeout=options.time_limit if scaled else None).returncode == 0
         except subprocess.TimeoutExpired:
             return False
 
@@ -110,20 +118,29 @@ def track(options, scene, name, scaled=""):
     """Tracks a recording; returns its metrics, or nothing after a failure."""
     out = options.out / name
     shutil.rmtree(out, ignore_errors=True)
-    done = call(options, options.out / f"{name}.log", "run", scene, "--out", out, "--set", "evaluate.threads=1", scaled=scaled)
+    done = call(options, options.out / f"{name}.log", "run", scene, "--out", out, "--set", "evaluate.threads=1",
+                scaled=scaled)
     metrics = json.loads((out / "metrics.json").read_text(encoding="utf-8")) if done else {}
     shutil.rmtree(out, ignore_errors=True)
     return {name: metrics[name] for name in METRICS if metrics.get(name) is not None}
 
 
+def record(options, scene, recording):
+    """Renders a scene."""
+    part = recording.with_suffix(".part")
+    shutil.rmtree(part, ignore_errors=True)  # of a run that was stopped
+    if call(options, f"{recording}.log", "synth", scene, "--format", "ppm", "--out", part):
+        part.rename(recording)
+
+
 def base(options, pool, variant):
     """Makes a variant's recordings; returns by sequence its scene, its metrics and those of runs with other noise."""
-    out = options.out / variant
-    if not out.exists():
-        file = options.out / f"{variant}.yaml"
-        file.write_text(f'extends: "@{options.study.resolve()}"\nseeds: {SEEDS}\n', encoding="utf-8")
-        call(options, options.out / f"{variant}.log", "compare", file, "--variant", variant, "--out", out, "--threads", "1",
-             "--jobs", str(options.jobs))
+    out, log = options.out / variant, options.out / f"{variant}.log"
+    file = options.out / f"{variant}.yaml"
+    file.write_text(f'extends: "@{options.study.resolve()}"\nseeds: {SEEDS}\n', encoding="utf-8")
+    if not call(options, log, "compare", file, "--variant", variant, "--out", out, "--threads", "1",
+                "--jobs", str(options.jobs)):
+        raise SystemExit(f"the study fails: {log}")
     (out / "recordings").mkdir(exist_ok=True)
     sequences, recorded = {}, {}
     for run in sorted((out / "runs").iterdir()):
@@ -133,14 +150,14 @@ def base(options, pool, variant):
         if cell["seed"] == 1:
             recorded[cell["scene"]] = recording = out / "recordings" / cell["scene"]
             if not recording.exists():
-                pool.submit(call, options, f"{recording}.log", "synth", run / "run.yaml", "--format", "ppm", "--out", recording)
+                pool.submit(record, options, run / "run.yaml", recording)
     return sequences, recorded
 
 
 def worse(scene, metrics, draws):
     """Returns the first metric that is worse than in all runs with other noise, as text; empty: none."""
     if not metrics:
-        return f"{scene} fails"
+        return f"{scene} ends without metrics"
     for metric, (sign, tolerance) in METRICS.items():
         values = [draw[metric] for draw in draws if draw.get(metric) is not None]
         if metric not in metrics or not values:
@@ -160,7 +177,8 @@ def without(options, bases, name, factor):
         same = same and metrics == plain
         effects.append(worse(scene, metrics, [plain, *draws]))
     where = "; ".join(filter(None, effects))
-    return {"constant": name, "factor": factor, "effect": "none" if same else "worse" if where else "within noise", "where": where}
+    effect = "none" if same else "worse" if where else "within noise"
+    return {"constant": name, "factor": factor, "effect": effect, "where": where}
 
 
 def run(options):

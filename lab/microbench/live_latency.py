@@ -3,7 +3,7 @@
 
 Two MJPEG streams of this machine play frames of a rendered scene to and fro, 30 pairs per second. `hypotrack run --web`
 tracks them, while a browser's connections take its pictures and states and a program reads the output `stream`.
-Prints the time from the arrival of the pictures to the solution, and of the last third beside the first one's.
+Prints the time from the arrival of the pictures to the solution: a queue that grows would show in the thirds' medians.
 """
 import argparse
 import json
@@ -75,7 +75,12 @@ def read(folder, run):
     """Returns the states and the ages of the solutions, in milliseconds."""
     reader = socket.socket(socket.AF_UNIX)
     wait_for((folder / "solutions").exists, run)
-    reader.connect(str(folder / "solutions"))
+    for attempt in range(20):  # the file is there before anybody listens
+        try:
+            reader.connect(str(folder / "solutions"))
+            break
+        except ConnectionRefusedError:
+            time.sleep(0.05 * attempt)
     lines = reader.makefile()
     next(lines)
     return [(next(iter(line["models"].values()))["status"], 1000 * line["age"])
@@ -97,13 +102,13 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         record(options, folder)
-        servers = []
+        servers, run = [], None
         try:
             for view in "left", "right":
                 servers.append(play(folder, view))
             left, right = (address for _, address in servers)
-            subprocess.run([options.hypotrack, "new", "scene", "scene.yaml", "--left", left, "--right", right, "--calibration",
-                            "recording/calibration.yaml", "--model", "hand", "--tracker", options.tracker], cwd=folder,
+            subprocess.run([options.hypotrack, "new", "scene", "scene.yaml", "--left", left, "--right", right,
+                            "--calibration", "recording/calibration.yaml", "--model", "hand", "--tracker", options.tracker], cwd=folder,
                            check=True, stdout=subprocess.DEVNULL)
             with open(folder / "log", "w", encoding="utf-8") as log:
                 run = subprocess.Popen([options.hypotrack, "run", "scene.yaml", "--out", "result", "--web", "0", "--frames",
@@ -113,10 +118,14 @@ def main():
             wait_for(lambda: page.search((folder / "log").read_text()), run)
             for part in "/events", "/pictures/row":
                 take(page.search((folder / "log").read_text())[1] + part)
-            report(read(folder, run))
+            solutions = read(folder, run)
+            if run.wait() != 0 or len(solutions) < 3:
+                raise SystemExit((folder / "log").read_text())
+            report(solutions)
         finally:
-            for server, _ in servers:
-                server.kill()
+            for process in [server for server, _ in servers] + ([run] if run else []):
+                process.kill()
 
 
-main()
+if __name__ == "__main__":
+    main()

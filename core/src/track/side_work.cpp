@@ -6,6 +6,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "base/profile.hpp"
@@ -27,6 +28,7 @@ struct SideWork::Job {
   std::atomic<State> state = State::left;
   std::exception_ptr failure;
   double seconds = 0;  ///< that it took
+  std::thread::id by = {};
 
   /// Does the work unless a thread has begun it. Returns whether it did.
   bool run() {
@@ -38,6 +40,8 @@ struct SideWork::Job {
     } catch (...) {
       failure = std::current_exception();
     }
+    work = nullptr;  // the arena may know this object for longer than pictures may be held
+    by = std::this_thread::get_id();
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     state = State::done;
     state.notify_all();
@@ -86,7 +90,8 @@ void SideWork::wait() {
   // Waiting as TBB does would take up other works, which may be longer.
   if (!arena_.execute([&] { return job->run(); })) {
     job->state.wait(Job::State::begun);
-    part.add_beside(job->seconds);
+    // A loop of this thread may have taken it up, and then counts its time.
+    if (job->by != std::this_thread::get_id()) part.add_beside(job->seconds);
   }
   if (job->failure) std::rethrow_exception(job->failure);
 }

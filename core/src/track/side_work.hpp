@@ -12,7 +12,7 @@ namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Does a work in another thread, beside what the owner of this object does meanwhile. The thread
-/// is of the arena that begins the first work; an arena of one thread does all works at once.
+/// is of the arena that begins the first work. In an arena of one thread begin() does each work.
 class SideWork {
  public:
   /// `name`, which must outlive the object, is that of its part in profiles and in errors.

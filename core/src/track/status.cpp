@@ -22,7 +22,8 @@ std::string_view to_string(Status status) {
 namespace hypotrack::internal {
 
 double StatusMonitor::usual_cost() const {
-  if (costs_.empty()) return -std::numeric_limits<double>::infinity();
+  constexpr std::size_t kEnough = 5;  // too few costs to compare with below that
+  if (costs_.size() < kEnough) return -std::numeric_limits<double>::infinity();
   const std::vector<double> costs(costs_.begin(), costs_.end());
   const double expected = upper_median(costs);
   std::vector<double> deviations;

@@ -29,7 +29,7 @@ class HYPOTRACK_API Tracker {
   /// frame to frame. Throws DataError if the frame does not fit the cameras or the frames before.
   /// Throws ConfigError at the first frame if `init.from` is `truth` and it has none. A tracker
   /// that could not start refuses all further frames. Learning goes on after it returned, without
-  /// the pictures; a later call throws its errors.
+  /// the pictures; a later call throws its errors. After the last call they are lost.
   ///
   /// Throws Stopped within about 0.2 s once `stop` returns true. The frame then counts as missing:
   /// go on with a later one.

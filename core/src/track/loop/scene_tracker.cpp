@@ -38,7 +38,8 @@ Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, Fram
   const PictureWatch::FrameEnd end(pictures_);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    const auto [fault, view] = pictures_.check(frame);
+    const auto [fault, view] =
+        detail::in_frame(frame.index, [&] { return pictures_.check(frame); });
     solution.fault = fault;
     solution.fault_view = view;
     if (!spoils_pictures(fault)) {

@@ -226,6 +226,7 @@ std::optional<Eigen::VectorXd> PoseSearch::with_better_limbs(Cost& cost,
                                                              const Eigen::VectorXd& state,
                                                              const std::vector<bool>& moving,
                                                              std::int64_t& evaluations) const {
+  constexpr double kGain = 0.01;  // least share of the cost's change that counts
   if (!cost.least_squares() || postures_.limbs().empty()) return std::nullopt;
   LeastSquares least_squares(scene_, cost, moving);
   std::vector<Refined> one{{state, 0}};
@@ -233,7 +234,7 @@ std::optional<Eigen::VectorXd> PoseSearch::with_better_limbs(Cost& cost,
   const double before = one.front().cost;
   improve_limbs(least_squares, cost, one);
   evaluations += least_squares.evaluations();
-  if (!(one.front().cost < before)) return std::nullopt;
+  if (!(one.front().cost < before - kGain * std::abs(before))) return std::nullopt;
   return one.front().state;
 }
 

@@ -70,8 +70,8 @@ class PoseSearch {
                   const PoseGuess& guess, const HypothesisCounts& counts, std::uint64_t seed);
 
   /// Tries each limb straight, half bent and bent in the prepared frame; `moving` flags the models
-  /// that least squares moves. Returns nothing if that does not lower the cost of the state. Adds
-  /// to `evaluations`.
+  /// that least squares moves. Returns nothing if that hardly lowers the cost of the state. Adds to
+  /// `evaluations`.
   std::optional<Eigen::VectorXd> with_better_limbs(Cost& cost, const Eigen::VectorXd& state,
                                                    const std::vector<bool>& moving,
                                                    std::int64_t& evaluations) const;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kFinderWindow = 0.75;  // of a model's radius: what a place is looked for by
 constexpr double kSeen = 0.35;          // of the colours that a tracked model shows: it is in view
-// Shares of hypotheses near the rotation of a pose, and near that of a place.
+// Shares of hypotheses near the last rotation, around a pose and at a place.
 constexpr double kNearPose = 0.75, kNearPlace = 0.25;
 constexpr double kHopeless = 4;  // -log odds: no search makes such a candidate right
 // Factors where a model was never seen: of the poses that are scored and refined, of those
@@ -73,7 +73,7 @@ void Recovery::remember(const Eigen::VectorXd& state, const std::vector<bool>& t
 }
 
 Recovery::Reduction::Reduction(Recovery& recovery, const Frame* frame) : recovery_(recovery) {
-  if (!frame || frame->views.size() < 2) return;
+  if (!frame || frame->views.size() < 2 || !recovery.reducing_.has_thread()) return;
   recovery.reduced_ = {};
   recovery.reducing_.begin([&recovery, frame] { recovery.reduced_ = recovery.reduced(*frame); });
 }
@@ -97,7 +97,7 @@ Recovery::ReducedFrame Recovery::reduced(const Frame& frame) const {
 void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state) {
   if (frame.views.size() < 2) return;
   if (reduced_.index != frame.index) reduced_ = reduced(frame);
-  learning_.begin([this, pictures = reduced_.pictures, state] {
+  learning_.begin([this, pictures = std::exchange(reduced_, {}).pictures, state] {
     tbb::parallel_for(std::size_t{0}, pictures.size(), [&](std::size_t i) {
       if (!pictures[i].empty()) learn_background(i, pictures[i], state);
     });

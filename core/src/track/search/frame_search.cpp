@@ -243,7 +243,7 @@ Found FrameSearch::from_guess(const Frame& frame, const Eigen::VectorXd& start,
 
 void FrameSearch::learn(const Frame& frame, const Eigen::VectorXd& state) {
   {
-    const ProfiledPart part("match colours");
+    const ProfiledPart part("take colours");
     photometric_.learn(tiles_, frame, plan_, drawn(state));
   }
   const bool all = std::ranges::find(shown_, false) == shown_.end();
