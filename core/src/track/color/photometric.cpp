@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "track/color/color_fit.hpp"
@@ -58,28 +59,13 @@ void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const T
                              const Eigen::VectorXd& state) {
   if (!settings_.match || plan.views.size() < 2) return;
   views().resize(plan.views.size() - 1);
-  if (learning_.has_thread()) keep(frame, plan);
-  const Frame* pictures = learning_.has_thread() ? &kept_ : &frame;
-  learning_.begin([this, pictures, cameras = tiles.resamplers(), header = plan.header, state] {
-    sampler_.draw(header, state);
-    for (std::size_t i = 0; i < views_.size(); ++i)
-      learn(views_[i], sampler_.take(*pictures, cameras, i + 1, settings_.highlights), i + 1);
+  sampler_.draw(plan.header, state);
+  std::vector<ColorSamples> samples;
+  for (std::size_t i = 0; i < views_.size(); ++i)
+    samples.push_back(sampler_.take(frame, tiles.resamplers(), i + 1, settings_.highlights));
+  learning_.begin([this, samples = std::move(samples)] {
+    for (std::size_t i = 0; i < views_.size(); ++i) learn(views_[i], samples[i], i + 1);
   });
-}
-
-void PhotometricMatch::keep(const Frame& frame, const TilePlan& plan) {
-  kept_.views.resize(frame.views.size());
-  for (std::size_t i = 0; i < kept_.views.size(); ++i) {
-    const cv::Mat& picture = frame.views[i].color;
-    cv::Mat& kept = kept_.views[i].color;
-    kept.create(picture.size(), picture.type());
-    // Samples lie up to a pixel of the tile beside its outer pixels.
-    cv::Rect part = plan.views[i].touched;
-    const int margin = 2 + std::max(part.width, part.height) / plan.header.views[i].camera.width;
-    part = (part + cv::Size(2 * margin, 2 * margin)) - cv::Point(margin, margin);
-    part &= cv::Rect({}, picture.size());
-    picture(part).copyTo(kept(part));
-  }
 }
 
 std::vector<PhotometricMatch::Learned>& PhotometricMatch::views() {

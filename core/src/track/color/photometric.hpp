@@ -54,7 +54,7 @@ class PhotometricMatch {
   /// Updates the maps from a frame with the scene posed in a normalised state. `plan` must be of
   /// that frame. Maps stay as they are where a frame teaches nothing (fit_color_map()). Does
   /// nothing with one view or with match off. It works beside what the caller does next, without
-  /// the frame; errors are thrown where the maps are used. The tile maker must outlive that.
+  /// the frame; errors are thrown where the maps are used.
   void learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
              const Eigen::VectorXd& state);
 
@@ -83,8 +83,6 @@ class PhotometricMatch {
     int frames = 0;
     Highlights highlights;
   };
-  /// Keeps the parts of a frame's pictures that tiles show: the caller may change the frame.
-  void keep(const Frame& frame, const TilePlan& plan);
   /// Returns what was learned.
   std::vector<Learned>& views();
   const std::vector<Learned>& views() const;
@@ -95,8 +93,7 @@ class PhotometricMatch {
 
   PhotometricSettings settings_;
   ColorSampler sampler_;
-  std::vector<Learned> views_;  // without the first; see views()
-  Frame kept_;
+  std::vector<Learned> views_;                  // without the first; see views()
   mutable SideWork learning_{"match colours"};  ///< uses all of this
 };
 
