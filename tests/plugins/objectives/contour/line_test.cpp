@@ -6,7 +6,6 @@
 
 #include "color_histograms.hpp"
 #include "correspondence_lines.hpp"
-#include "every_target.hpp"
 #include "line_distribution-inl.hpp"
 #include "line_places.hpp"
 
@@ -177,48 +176,6 @@ TEST(Line, DoesNotLookBesideTheCamerasPicture) {
   picture.colRange(31, 60).setTo(cv::Scalar::all(0));  // not even the colours of the ground
   find_places({picture, colors.log_odds()}, {&line, 1}, 2, {&cut, 1});
   EXPECT_GT(cut.variance, all.variance + 1);
-}
-
-/// Returns 37 lines, no whole number of vectors, across the edge at x = 30.
-std::vector<PixelLine> lines_across() {
-  std::vector<PixelLine> lines;
-  for (int i = 0; i < 37; ++i)
-    lines.push_back({{27 + 0.17f * static_cast<float>(i), 12 + static_cast<float>(i)},
-                     Eigen::Vector2f(1, 0.02f * static_cast<float>(i)).normalized()});
-  return lines;
-}
-
-TEST(Lines, AreFoundAloneAsTogether) {
-  const cv::Mat4b picture = with_alpha(edge_at(30.3));
-  const ColorHistograms colors = learned();
-  const std::vector<PixelLine> lines = lines_across();
-  for (const int scale : {1, 3}) {
-    std::vector<Place> together(lines.size());
-    find_places({picture, colors.log_odds()}, lines, scale, together);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      Place alone;
-      find_places({picture, colors.log_odds()}, {&lines[i], 1}, scale, {&alone, 1});
-      EXPECT_EQ(alone.mean, together[i].mean);
-      EXPECT_EQ(alone.variance, together[i].variance);
-    }
-  }
-}
-
-TEST(Lines, AreTheSameOnEveryInstructionSet) {
-  const cv::Mat4b picture = with_alpha(edge_at(30.3));
-  const ColorHistograms colors = learned();
-  const std::vector<PixelLine> lines = lines_across();
-  std::vector<Place> usual(lines.size()), found(lines.size());
-  for (const int scale : {1, 3}) {
-    find_places({picture, colors.log_odds()}, lines, scale, usual);
-    test::on_every_target(compiled_targets(), [&] {
-      find_places({picture, colors.log_odds()}, lines, scale, found);
-      for (std::size_t i = 0; i < lines.size(); ++i) {
-        EXPECT_NEAR(found[i].mean, usual[i].mean, 1e-3);
-        EXPECT_NEAR(found[i].variance, usual[i].variance, 1e-3 * double{usual[i].variance});
-      }
-    });
-  }
 }
 
 TEST(Line, BehindAnotherModelIsLeftOut) {
