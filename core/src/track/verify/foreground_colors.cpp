@@ -14,8 +14,20 @@ constexpr float kFade = 0.9f;
 // Count below which a colour says little: it is hardly foreground then.
 constexpr float kUnseenShare = 1e-4f;
 
-/// Returns the histogram bin of a colour.
-std::size_t bin_of(const cv::Vec3f& color) {
+/// Histogram bin of a colour.
+struct Bin {
+  int bright, red, green;
+
+  bool exists() const {
+    return std::min({bright, red, green}) >= 0 && bright < kBright &&
+           std::max(red, green) < kShares;
+  }
+  std::size_t index() const {
+    return static_cast<std::size_t>((bright * kShares + red) * kShares + green);
+  }
+};
+
+Bin bin_of(const cv::Vec3f& color) {
   // The chromaticity of dark colours is noise: the floor draws them to grey.
   constexpr float kFloor = 8;
   const float blue = std::max(color[0], 0.0f) + kFloor, green = std::max(color[1], 0.0f) + kFloor,
@@ -25,12 +37,23 @@ std::size_t bin_of(const cv::Vec3f& color) {
   const auto share = [&](float channel) {
     return std::clamp(static_cast<int>(channel / sum * (kShares / 0.7f)), 0, kShares - 1);
   };
-  const int bright =
-      std::clamp(static_cast<int>((sum - 3 * kFloor) / 3 * (kBright / 256.0f)), 0, kBright - 1);
-  return static_cast<std::size_t>((bright * kShares + share(red)) * kShares + share(green));
+  const float bright = (sum - 3 * kFloor) / 3 * (kBright / 256.0f);
+  return {std::clamp(static_cast<int>(bright), 0, kBright - 1), share(red), share(green)};
 }
 
-void add(std::vector<float>& counts, const cv::Vec3f& color) { ++counts[bin_of(color)]; }
+/// Adds a colour to its bin, and fractions of it to the neighbours, as noise and light would.
+void add(std::vector<float>& counts, const cv::Vec3f& color) {
+  constexpr float kShare = 0.3f, kLight = 0.4f;
+  const Bin here = bin_of(color);
+  for (int db = -1; db <= 1; ++db)
+    for (int dr = -1; dr <= 1; ++dr)
+      for (int dg = -1; dg <= 1; ++dg) {
+        const Bin bin{here.bright + db, here.red + dr, here.green + dg};
+        if (bin.exists())
+          counts[bin.index()] +=
+              (db == 0 ? 1 : kLight) * (dr == 0 ? 1 : kShare) * (dg == 0 ? 1 : kShare);
+      }
+}
 
 float sum(const std::vector<float>& counts) {
   float total = 0;
@@ -79,7 +102,7 @@ void ForegroundColors::update() {
 
 float ForegroundColors::probability(const cv::Vec3f& color) const {
   if (!known()) return 0.5f;
-  return probability_[bin_of(color)];
+  return probability_[bin_of(color).index()];
 }
 
 }  // namespace hypotrack::internal
