@@ -36,7 +36,9 @@ namespace {
 constexpr int kWidth = 240;     // approximate width of a reduced picture
 constexpr int kStep = 3;        // pixels of it between the points of the sweep
 constexpr int kDepths = 20;     // planes, evenly spaced in disparity
-constexpr double kLeast = 0.2;  // share of the model's colours worth a comparison
+constexpr double kLeast = 0.2;        // share of the model's colours worth a comparison
+constexpr double kUnexplained = 0.4;  // least share of a place's foreground that other places leave
+                                      // unexplained
 
 /// Adds bytes to sums.
 void add(const std::uint8_t* bytes, std::span<std::uint16_t> sums) {
@@ -226,7 +228,7 @@ Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, con
       const Window &a = one.point->windows[0], &b = one.point->windows[1];
       const double left =
           std::min(views[0].mean(a.x, a.y, a.r), views[1].mean(b.x, b.y, b.r)) / one.share;
-      if (one.score * left > best.score)
+      if (left > kUnexplained && one.score * left > best.score)
         best = {one.point->center.cast<double>(), one.score * left};
     }
     if (best.score == 0) break;

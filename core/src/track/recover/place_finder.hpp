@@ -39,7 +39,7 @@ class PlaceFinder {
   /// camera.
   PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest, double farthest);
 
-  /// Finds up to `count` places. Model colours count once, for the first place that explains them.
+  /// Finds up to `count` places, each with model colours that the places before do not explain.
   /// `map` maps the second view's colours to the first's. `weights` (0 .. 1, per pixel of the
   /// reduced pictures) multiply the foreground probability; empty: all 1.
   Places find(const Frame& frame, const ForegroundColors& colors, const ColorMap& map,
