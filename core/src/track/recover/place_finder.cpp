@@ -33,9 +33,9 @@ struct ReducedView {
 
 namespace {
 
-constexpr int kWidth = 240;     // approximate width of a reduced picture
-constexpr int kStep = 3;        // pixels of it between the points of the sweep
-constexpr int kDepths = 20;     // planes, evenly spaced in disparity
+constexpr int kWidth = 240;           // approximate width of a reduced picture
+constexpr int kStep = 3;              // pixels of it between the points of the sweep
+constexpr int kDepths = 20;           // planes, evenly spaced in disparity
 constexpr double kLeast = 0.2;        // share of the model's colours worth a comparison
 constexpr double kUnexplained = 0.4;  // least share of a place's foreground that other places leave
                                       // unexplained

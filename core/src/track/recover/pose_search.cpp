@@ -16,8 +16,9 @@ namespace {
 constexpr double kPosePadding = 0.5;  // of a hypothesis, around it
 constexpr int kFiner = 2;             // pixels of the fine tile per pixel of the coarse one
 constexpr int kFineIterations = 6;
-constexpr std::size_t kImproved = 16;  // most poses that are improved limb by limb
-constexpr double kApart = 0.006;       // metres between those, mean over the landmarks
+constexpr std::size_t kImproved = 16;     // most poses that are improved limb by limb
+constexpr std::size_t kFineImproved = 4;  // most that are improved limb by limb there
+constexpr double kApart = 0.006;          // metres between those, mean over the landmarks
 
 /// Steps of least squares that poses take before only a share of them goes on, but no fewer than
 /// are kept.
@@ -203,6 +204,9 @@ FoundPoses PoseSearch::find(FrameSearch& search, const Frame& frame, const Eigen
   out.evaluations += std::ssize(out.poses);
   if (least_squares) {
     least_squares->refine(out.poses, kFineIterations);
+    sort_by_cost(out.poses);
+    const std::size_t improved = std::min(out.poses.size(), kFineImproved);
+    improve_limbs(*least_squares, cost, {out.poses.data(), improved});
     out.evaluations += least_squares->evaluations();
   }
   sort_by_cost(out.poses);
