@@ -459,8 +459,8 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
 }
 
 bool CandidateFinder::is_time_to_learn() const {
-  constexpr int kEvery = 4;  // frames
-  return settings_.judged && learned_ % kEvery == 0;
+  constexpr int kAtFirst = 10, kEvery = 4;  // frames
+  return settings_.judged && (learned_ < kAtFirst || learned_ % kEvery == 0);
 }
 
 void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {
