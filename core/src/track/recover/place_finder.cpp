@@ -139,11 +139,44 @@ bool patch_of(const Camera& camera, int by, const Eigen::Vector3d& center, doubl
   return true;
 }
 
+/// Computes the correlation of two views' grey values over patches, each point weighted by its
+/// foreground probability.
+double foreground_correlation(const ReducedView& a, const Patch& at, const ReducedView& b,
+                              const Patch& there) {
+  constexpr int kHalf = 10;
+  constexpr double kNoise = 2;  // standard deviation of grey values that counts as noise
+  const auto value = [](const cv::Mat1f& picture, double x, double y, double& out) {
+    const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+    if (x0 < 0 || y0 < 0 || x0 + 1 >= picture.cols || y0 + 1 >= picture.rows) return false;
+    const double fx = x - x0, fy = y - y0;
+    out = (1 - fy) * ((1 - fx) * double{picture(y0, x0)} + fx * double{picture(y0, x0 + 1)}) +
+          fy * ((1 - fx) * double{picture(y0 + 1, x0)} + fx * double{picture(y0 + 1, x0 + 1)});
+    return true;
+  };
+  double sum = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+  for (int v = -kHalf; v <= kHalf; ++v)
+    for (int u = -kHalf; u <= kHalf; ++u) {
+      const double du = u / double{kHalf}, dv = v / double{kHalf};
+      double p = 0, q = 0, w = 0;
+      const double x = at.x + du * at.r, y = at.y + dv * at.r;
+      if (!value(a.gray, x, y, p) || !value(a.probability, x, y, w) ||
+          !value(b.gray, there.x + du * there.r, there.y + dv * there.r, q))
+        continue;
+      sum += w, sa += w * p, sb += w * q, saa += w * p * p, sbb += w * q * q, sab += w * p * q;
+    }
+  if (!(sum > kHalf * kHalf * 0.2)) return 0;
+  const double va = saa / sum - sa * sa / sum / sum + kNoise * kNoise;
+  const double vb = sbb / sum - sb * sb / sum / sum + kNoise * kNoise;
+  return (sab / sum - sa * sb / sum / sum) / std::sqrt(va * vb);
+}
+
 }  // namespace
 
 PlaceFinder::PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest,
                          double farthest)
-    : cameras_(cameras), radius_(radius) {
+    : cameras_(cameras),
+      radius_(radius),
+      inverse_step_((1 / nearest - 1 / farthest) / (kDepths - 1.0)) {
   if (cameras.size() < 2) return;
   for (std::size_t i = 0; i < 2; ++i)
     reductions_[i] = std::max(1, static_cast<int>(std::lround(cameras[i].width / double{kWidth})));
@@ -232,10 +265,34 @@ Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, con
         best = {one.point->center.cast<double>(), one.score * left};
     }
     if (best.score == 0) break;
+    best.center = at_best_depth(views, best.center);
     out.best.push_back(best);
     for (std::size_t i = 0; i < 2; ++i) explain(views[i], i, best.center);
   }
   return out;
+}
+
+Eigen::Vector3d PlaceFinder::at_best_depth(const Views& views,
+                                           const Eigen::Vector3d& center) const {
+  constexpr int kEachWay = 12;
+  const Camera& first = cameras_[0];
+  const Eigen::Vector3d ray = first.camera_from_world * center;
+  const double step = inverse_step_ / 6;
+  Eigen::Vector3d best = center;
+  double most = 0;
+  for (int k = -kEachWay; k <= kEachWay; ++k) {
+    const double inverse = 1 / ray.z() + k * step;
+    if (!(inverse > 0)) continue;
+    const Eigen::Vector3d there =
+        first.camera_from_world.inverse() * Eigen::Vector3d(ray / (ray.z() * inverse));
+    Patch a, b;
+    if (!patch_of(first, reductions_[0], there, radius_, a) ||
+        !patch_of(cameras_[1], reductions_[1], there, radius_, b))
+      continue;
+    const double alike = foreground_correlation(views[0], a, views[1], b);
+    if (alike > most) most = alike, best = there;
+  }
+  return best;
 }
 
 void PlaceFinder::explain(ReducedView& view, std::size_t i, const Eigen::Vector3d& center) const {

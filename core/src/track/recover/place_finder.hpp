@@ -69,11 +69,14 @@ class PlaceFinder {
 
   /// Scores the sample points. Sets `seen` to Places::seen.
   std::vector<Candidate> sweep(const Views& views, double& seen) const;
+  /// Returns the point on the first camera's ray at which both views agree best.
+  Eigen::Vector3d at_best_depth(const Views& views, const Eigen::Vector3d& center) const;
   /// Removes from a view the foreground that a model at a place would explain.
   void explain(ReducedView& view, std::size_t i, const Eigen::Vector3d& center) const;
 
   std::vector<Camera> cameras_;
   double radius_;
+  double inverse_step_;  ///< step of 1/z between the planes of the sweep
   std::vector<Point> points_;
   int reductions_[2] = {1, 1};
 };
