@@ -26,7 +26,7 @@ std::span<const std::string_view> enum_names(Prediction);
 struct PredictionSettings {
   Prediction velocity = Prediction::none;
   double gain = 0.5;
-  double longest_gap = 0.060;
+  double longest_gap = 0.3;
   void visit(ParamVisitor& v) {
     v("velocity", velocity,
       {.help = "share of the last motion that continues: none; constant: `gain`; adaptive: none, "

@@ -64,13 +64,14 @@ TEST(Predictor, KnowsThatMotionTakesTime) {
   EXPECT_NEAR(predictor.at(0.06)(0, 0), 0.030, 1e-12);
 }
 
-TEST(Predictor, ExpectsNothingAcrossGaps) {
+TEST(Predictor, ExpectsNothingAcrossLongGaps) {
   const PredictedHand f;
   Predictor predictor = f.make(Prediction::constant, 1);
+  const double longest = PredictionSettings().longest_gap;
   predictor.add(f.state(0, 0), 0);
   predictor.add(f.state(0.010, 0.1), kPeriod);
-  EXPECT_EQ(predictor.at(kPeriod + 0.0599).cols(), 1);
-  EXPECT_EQ(predictor.at(kPeriod + 0.0601).cols(), 0);
+  EXPECT_EQ(predictor.at(kPeriod + 0.99 * longest).cols(), 1);
+  EXPECT_EQ(predictor.at(kPeriod + 1.01 * longest).cols(), 0);
   EXPECT_EQ(predictor.at(kPeriod).cols(), 0) << "no time has passed";
   predictor.add(f.state(0.050, 0), 0.5);  // no motion follows from a step across a gap
   EXPECT_EQ(predictor.at(0.5 + kPeriod).cols(), 0);

@@ -89,6 +89,19 @@ std::string absent(int first, int last) {
   return fmt::format("source.faults=[{{frames: [{}, {}], kind: absent}}]", first, last);
 }
 
+TEST(Lost, FollowsFastHandsAtFifteenPairsASecond) {
+  std::string dropped;  // every second pair of 30 a second
+  for (int frame = 1; frame < 32; frame += 2)
+    dropped += fmt::format("{{frames: [{0}, {0}], kind: missing}}, ", frame);
+  const auto frames =
+      track_scene("datasets/shf.yaml", 16,
+                  {"tracker=@trackers/recommended", "source.faults=[" + dropped + "]"});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(frames[i].status, Status::tracked) << i;
+    EXPECT_LT(frames[i].error_mm, 4) << i;
+  }
+}
+
 TEST(Lost, ComesBackAfterOneFrameWithoutTheHand) {
   const auto frames = track(24, {absent(10, 10)});
   expect_found_again(frames, 11);
