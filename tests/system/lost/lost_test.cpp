@@ -89,6 +89,14 @@ std::string absent(int first, int last) {
   return fmt::format("source.faults=[{{frames: [{}, {}], kind: absent}}]", first, last);
 }
 
+TEST(Lost, TracksDarkPictures) {
+  const auto frames = track(6, {"source.sensor={noise_sigma: 1.5, gain: [0.15, 0.15]}"});
+  for (const Tracked& f : frames) {
+    EXPECT_EQ(f.status, Status::tracked) << statuses(frames);
+    EXPECT_LT(f.error_mm, 10) << statuses(frames);
+  }
+}
+
 TEST(Lost, FollowsFastHandsAtFifteenPairsASecond) {
   std::string dropped;  // every second pair of 30 a second
   for (int frame = 1; frame < 32; frame += 2)

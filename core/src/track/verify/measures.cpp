@@ -297,14 +297,43 @@ Probability probability(const SurfaceSamples& samples, const ForegroundColors& c
   return {count > 0 ? sum / count : 0, lowest, highest};
 }
 
+/// Returns by what to multiply the colours of dark pictures, of which judges know little; 1: of
+/// none.
+double brightening(const SurfaceSamples& samples) {
+  constexpr double kBrightest = 0.02;  // share of the points
+  constexpr double kExposed = 80;      // levels that they have in other pictures
+  constexpr double kMostNoise = 5;     // a larger factor shows nothing else
+  std::vector<float> levels;
+  for (const SampledView& view : samples.views)
+    for (int y = 0; y < view.color.rows; ++y)
+      for (int x = 0; x < view.color.cols; ++x)
+        if (view.inside(y, x) || view.ring(y, x)) levels.push_back(view.color(y, x).dot({1, 1, 1}));
+  if (levels.empty()) return 1;
+  const auto at =
+      levels.begin() + static_cast<std::ptrdiff_t>(kBrightest * static_cast<double>(levels.size()));
+  std::ranges::nth_element(levels, at, std::greater<>());
+  return std::clamp(kExposed / (double{*at} / 3), 1.0, kMostNoise);
+}
+
+/// Returns samples with colours multiplied by a factor.
+SurfaceSamples brightened(const SurfaceSamples& samples, double factor) {
+  SurfaceSamples out = samples;
+  for (SampledView& view : out.views) view.color = cv::Mat3f(view.color * factor);
+  out.other = cv::Mat3f(out.other * factor);
+  return out;
+}
+
 }  // namespace
 
-Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors,
+Measures measure(const SurfaceSamples& sampled, const ForegroundColors& colors,
                  const Appearance& appearance) {
   Measures out;
-  out.values[Measures::kVisible] = samples.visible;
-  out.covered = samples.covered;
-  if (samples.empty()) return out;
+  out.values[Measures::kVisible] = sampled.visible;
+  out.covered = sampled.covered;
+  if (sampled.empty()) return out;
+  const double factor = brightening(sampled);
+  const SurfaceSamples bright = factor > 1 ? brightened(sampled, factor) : SurfaceSamples();
+  const SurfaceSamples& samples = factor > 1 ? bright : sampled;
   const SampledView& first = samples.views[0];
   cv::Mat1b core;
   cv::erode(first.inside, core, cv::Mat());
@@ -319,9 +348,9 @@ Measures measure(const SurfaceSamples& samples, const ForegroundColors& colors,
   Probability on, off;
   std::array<double, 2> apart{};
   run_together({[&] { surface = texture(inside); }, [&] { beside = texture(ring); },
-                [&] { out.likeness = appearance.likeness(samples); },
-                [&] { on = probability(samples, colors, &SampledView::inside); },
-                [&] { off = probability(samples, colors, &SampledView::ring); },
+                [&] { out.likeness = appearance.likeness(sampled); },
+                [&] { on = probability(sampled, colors, &SampledView::inside); },
+                [&] { off = probability(sampled, colors, &SampledView::ring); },
                 [&] { left = edges(samples.views[0]); }, [&] { right = edges(samples.views[1]); },
                 [&] { apart[0] = separation(samples.views[0]); },
                 [&] { apart[1] = separation(samples.views[1]); },
