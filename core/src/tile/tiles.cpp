@@ -4,12 +4,15 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "camera/rectification.hpp"
 #include "hypotrack/api/error.hpp"
+#include "hypotrack/plugin/model.hpp"
 #include "scene/posed_scene.hpp"
+#include "scene/simd_kernels.hpp"
 #include "scene/visible_share.hpp"
 #include "tile/foreground_overlap.hpp"
 
@@ -31,6 +34,30 @@ double sharpest(const std::vector<Camera>& cameras) {
   return focal;
 }
 
+/// Returns the larger side of a model's image on the plane z = 1 of the first ideal camera.
+double extent_of(const ScenePlan::Part& part, const ScenePoser& vertices) {
+  constexpr std::array<float, 12> kFirst{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+  const std::size_t first = part.first_vertex;
+  const std::size_t blocks = (std::size_t{part.vertex_count} + kBlock - 1) / kBlock;
+  PlaneBounds bounds{};
+  bound_points(vertices.x() + first, vertices.y() + first, vertices.z() + first, blocks * kBlock,
+               kFirst.data(), bounds);
+  return std::max(double{bounds.x1} - bounds.x0, double{bounds.y1} - bounds.y0);
+}
+
+/// Returns how many times as large as the largest of several rigid models they are together, in the
+/// first view; 1 if a model has joints.
+double times_as_large(const PosedScene& posed) {
+  double largest = 0;
+  for (const ScenePlan::Part& part : posed.plan().parts) {
+    if (posed.leaves_out(part)) continue;
+    if (part.item->model->dimension() != kPoseSize) return 1;
+    largest = std::max(largest, extent_of(part, posed.vertices()));
+  }
+  const Bounds& all = posed.bounds()[0];
+  return largest > 0 ? std::max(all.width(), all.height()) / largest : 1;
+}
+
 }  // namespace
 
 struct TileMaker::Impl {
@@ -47,6 +74,7 @@ struct TileMaker::Impl {
   }
 
   std::vector<ResamplePlan> plan_views(const std::vector<TileCamera>& tiles) const;
+  int tile_size() const;
 
   const Scene& scene;
   std::vector<Camera> cameras;
@@ -56,6 +84,19 @@ struct TileMaker::Impl {
   VisibleShare visible;
   std::vector<Resampler> resamplers;
 };
+
+/// Returns the side of the tiles around the posed scene. A tile that several rigid models share is
+/// larger, so that none is shown too small to be followed, but not finer than the pictures.
+int TileMaker::Impl::tile_size() const {
+  constexpr double kMost = 2;  // times the size of the settings: four times its time
+  constexpr int kStep = 32;    // pixels, so that few frames change it
+  const Bounds& all = posed.bounds()[0];
+  const double pixels =
+      std::max(all.width(), all.height()) * (1 + 2 * settings.padding) * sharpest(cameras);
+  const double wanted = std::min(settings.size * std::min(times_as_large(posed), kMost), pixels);
+  if (!(wanted > settings.size)) return settings.size;
+  return settings.size + kStep * static_cast<int>((wanted - settings.size) / kStep);
+}
 
 std::vector<ResamplePlan> TileMaker::Impl::plan_views(const std::vector<TileCamera>& tiles) const {
   std::vector<double> scales;
@@ -106,7 +147,7 @@ TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const
   self.posed.pose(state);
   self.posed.check_in_front();
   const std::vector<TileCamera> tiles =
-      crop(self.posed.bounds(), self.rig, self.settings.size, self.settings.padding, largest_focal);
+      crop(self.posed.bounds(), self.rig, self.tile_size(), self.settings.padding, largest_focal);
   TilePlan plan;
   plan.header.frame = frame.index;
   plan.header.time = frame.time;

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "box_views.hpp"
 #include "hypotrack/api/error.hpp"
 #include "test_cameras.hpp"
+#include "test_models.hpp"
 #include "tile/resample.hpp"
 #include "tile_cases.hpp"
 
@@ -48,6 +50,31 @@ TEST(Tiles, DoNotShowWhatTheLensFoldsBackIntoTheImage) {
   // At r = 0.95 the polynomial says 0.29, well inside the image.
   const TileView view = setup.make(image, at(0.95, 0, 1)).views[0];
   EXPECT_EQ(cv::countNonZero(view.valid), 0);
+}
+
+TEST(Tiles, OfSeveralRigidModelsAreLargerWhereTheModelsAreApart) {
+  const std::shared_ptr<const Model> box = test::box_scene({0.1f, 0.1f, 0.1f}).items()[0].model;
+  const Scene two({{"a", box}, {"b", box}});
+  Camera camera = test::PlainSetup(1, 64).camera;
+  Frame frame;
+  frame.views = {{test::black(camera), {}}};
+  const auto size_of = [&](const Scene& scene, double apart, double far) {
+    Eigen::VectorXd state(14);
+    state << at(0, 0, far), at(apart, 0, far);
+    const TileMaker maker(scene, {camera}, {.size = 64, .padding = 0.2});
+    return maker.plan(frame, state.head(scene.dimension())).header.views[0].camera.width;
+  };
+  EXPECT_EQ(size_of(two, 0.5, 2), 128);
+  EXPECT_EQ(size_of(two, 0.06, 1), 64 + 32);
+  EXPECT_EQ(size_of(two, 0, 2), 64);
+  EXPECT_EQ(size_of(two, 0.5, 8), 64);  // no finer than the picture
+  EXPECT_EQ(size_of(test::box_scene({1, 1, 1}), 0, 2), 64);
+  const Scene with_joints({{"a", box}, {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  Eigen::VectorXd state = with_joints.rest_state();
+  state.head<3>() << 0.5, 0, 2;
+  state.segment<3>(7) << 0, 0, 2;
+  const TileMaker maker(with_joints, {camera}, {.size = 64, .padding = 0.2});
+  EXPECT_EQ(maker.plan(frame, state).header.views[0].camera.width, 64);
 }
 
 TEST(Tiles, ResampleTheMaskWithTheColour) {
