@@ -26,6 +26,7 @@ struct StatusSettings {
   double lost_sigma = 0.040;
   UncertaintySettings uncertainty;
   bool check_pictures = true;
+  bool correct_turn = false;
   // Of the scene's judge, which has its own section.
   bool judged = false;  ///< by a judge, who looks at the pictures; false: by costs alone
   JudgeThresholds thresholds = {};
@@ -57,6 +58,9 @@ struct StatusSettings {
     v("check_pictures", check_pictures,
       {.help = "do not search frames with frozen, exchanged, black, white or doubled views, and "
                "report jumps of brightness"});
+    v("correct_turn", correct_turn,
+      {.help = "move the second view's pictures where the outlines of rigid models (objective "
+               "`contour`) show that its camera is turned against the calibration"});
   }
 };
 

@@ -149,6 +149,7 @@ cv::Mat1f Contour::nearest(const Eigen::VectorXd& state, const TileCamera& camer
 void Contour::fit(const RigidModel& model, const Observation& observation,
                   const std::vector<Picture>& pictures) {
   std::vector<RegionView> regions;
+  std::vector<std::size_t> views;
   for (const Picture& picture : pictures) {
     const ColorHistograms& colors = model.colors[picture.index];
     if (colors.is_empty()) continue;
@@ -157,6 +158,7 @@ void Contour::fit(const RigidModel& model, const Observation& observation,
     const float distance =
         distance_of(model.contours, camera_from_model(camera, observation.start, model.offset));
     regions.push_back({&camera, {picture.color, colors.log_odds()}, picture.nearest, distance});
+    views.push_back(picture.index);
   }
   DepthViews depth{.points = model.surface, .views = {}, .sigma = params_.depth_sigma};
   for (const TileView& view : observation.views)
@@ -164,7 +166,8 @@ void Contour::fit(const RigidModel& model, const Observation& observation,
   const Eigen::Isometry3d pose =
       fit_region(model.contours, pose_of(refined_, model.offset), regions, depth);
   set_pose(pose, model.offset, refined_);
-  for (RegionView& region : regions) {
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    RegionView& region = regions[i];
     const Eigen::Isometry3f here = camera_from_model(*region.camera, refined_, model.offset);
     if (!region.nearest.empty()) {  // models that are fitted later see this one where it is now
       add_cover(model.contours.seen_by(here), here, *region.camera, region.distance,
@@ -173,7 +176,7 @@ void Contour::fit(const RigidModel& model, const Observation& observation,
     constexpr double kReach = 0.1;  // of the model's extent
     lines_.push_back({*region.camera, model.offset, 1.0 / static_cast<double>(regions.size()),
                       kReach * double{extent_of(model.contours, here, *region.camera)},
-                      lines_of(model.contours, pose, region, 1)});
+                      lines_of(model.contours, pose, region, 1), views[i]});
   }
   for (const TileView* view : depth.views)
     depths_.push_back({model.offset, depth.sigma, 1.0 / static_cast<double>(depth.views.size()),

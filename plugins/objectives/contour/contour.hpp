@@ -9,6 +9,7 @@
 
 #include "color_histograms.hpp"
 #include "contour_views.hpp"
+#include "hypotrack/plugin/linearization.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "hypotrack/plugin/plugin_object.hpp"
 #include "params.hpp"
@@ -29,12 +30,16 @@ namespace hypotrack::contour {
 ///
 /// Colours are learned along the outlines of the start, and then of every answer. Models with
 /// joints cost nothing. Lines of a model that another one hides are left out.
-class Contour : public Objective, public ResidualTerm {
+class Contour : public Objective, public ResidualTerm, public CameraTurnTerm {
  public:
   using Params = contour::Params;
 
   /// Draws models that are not in the cache.
   Contour(const Params& params, const Scene& scene, const PluginLog& log = {});
+
+  std::optional<CameraTurn> camera_turn(std::span<const double> state) const override {
+    return contour::camera_turn(lines_, state);
+  }
 
  protected:
   bool do_needs_rendering() const override { return false; }

@@ -1,6 +1,8 @@
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "hypotrack/plugin/kinematics.hpp"
 #include "hypotrack/plugin/model.hpp"
@@ -29,6 +31,53 @@ double residual(const LineSet& set, const CorrespondenceLine& line, double d) {
 std::span<const double> pose_of(const LineSet& set, std::span<const double> state) {
   return state.subspan(static_cast<std::size_t>(set.offset), kPoseSize);
 }
+
+/// Normal equations of a small motion of one model (turned about its origin, then moved) and of the
+/// turn of the second camera.
+class TurnEquations {
+ public:
+  void add(const LineSet& set, const Eigen::Isometry3d& world_from_model) {
+    const Eigen::Matrix3d world_from_camera = set.camera.camera_from_world.linear().transpose();
+    for (const CorrespondenceLine& line : set.lines) {
+      const Eigen::Vector3d arm = world_from_model.linear() * line.position.cast<double>();
+      const Eigen::Vector3d at =
+          set.camera.camera_from_world * (world_from_model.translation() + arm);
+      const double d = distance(set, line, at);
+      if (std::isinf(d)) continue;
+      const Eigen::Vector3d slope = pixel_slope(set.camera, at, line.normal);
+      const Eigen::Vector3d moved = world_from_camera * slope;
+      const bool turns = set.view == 1;
+      Row row;
+      row << arm.cross(moved), moved, turns ? slope.x() * at.z() - slope.z() * at.x() : 0.0;
+      const double bend = std::hypot(1, d / set.reach);
+      const double weight = 1 / (double{line.variance} * bend * bend * bend * bend);
+      a_ += weight * row * row.transpose();
+      g_ += weight * d * row;
+      if (turns) depths_ += at.z();
+      if (set.view < lines_.size()) ++lines_[set.view];
+    }
+  }
+
+  /// Adds what is known of the turn, whatever the model's motion, to a sum of angles by their
+  /// information.
+  void add_to(CameraTurn& sum, double& information) const {
+    if (lines_[0] == 0 || lines_[1] == 0) return;
+    Eigen::Matrix<double, 6, 6> motion = a_.topLeftCorner<6, 6>();
+    motion.diagonal().array() += 1;  // radians and metres: motions that no line tells are bounded
+    const Eigen::Matrix<double, 6, 1> by_turn = motion.ldlt().solve(a_.col(6).head<6>());
+    const double own = a_(6, 6) - by_turn.dot(a_.col(6).head<6>());
+    information += own;
+    sum.angle -= g_[6] - by_turn.dot(g_.head<6>());
+    sum.distance += own * depths_ / lines_[1];
+  }
+
+ private:
+  using Row = Eigen::Matrix<double, 7, 1>;
+  Eigen::Matrix<double, 7, 7> a_ = Eigen::Matrix<double, 7, 7>::Zero();
+  Row g_ = Row::Zero();
+  std::array<int, 2> lines_{};  ///< by view
+  double depths_ = 0;           ///< sum over the second view's lines
+};
 
 }  // namespace
 
@@ -83,6 +132,22 @@ void write_jacobian(std::span<const LineSet> sets, std::span<const double> state
       row.tail<4>() = (slope * quaternion_slopes(pose.subspan<3, 4>(), x)).cast<float>();
     }
   }
+}
+
+std::optional<CameraTurn> camera_turn(std::span<const LineSet> sets,
+                                      std::span<const double> state) {
+  CameraTurn sum;
+  double information = 0;
+  for (auto first = sets.begin(); first != sets.end();) {
+    const int offset = first->offset;
+    const Eigen::Isometry3d pose = world_from_model(pose_of(*first, state));
+    TurnEquations equations;
+    for (; first != sets.end() && first->offset == offset; ++first) equations.add(*first, pose);
+    equations.add_to(sum, information);
+  }
+  if (!(information > 0)) return std::nullopt;
+  return CameraTurn{sum.angle / information, 1 / std::sqrt(information),
+                    sum.distance / information};
 }
 
 }  // namespace hypotrack::contour

@@ -4,10 +4,12 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "correspondence_lines.hpp"
+#include "hypotrack/plugin/linearization.hpp"
 #include "hypotrack/plugin/model.hpp"
 #include "hypotrack/plugin/objective.hpp"
 #include "hypotrack/plugin/observation.hpp"
@@ -40,6 +42,7 @@ struct LineSet {
   double weight = 1;  ///< of each squared residual
   double reach = 1;   ///< pixels beyond which a line pulls less and less
   std::vector<CorrespondenceLine> lines;
+  std::size_t view = 0;
 };
 
 std::int64_t residual_count(std::span<const LineSet> sets);
@@ -57,6 +60,11 @@ double cost_and_residuals(std::span<const LineSet> sets, std::span<const double>
 /// Adds the derivatives of the residuals by the models' poses.
 void write_jacobian(std::span<const LineSet> sets, std::span<const double> state,
                     Jacobian& jacobian);
+
+/// Returns by which turn of the second view's camera (CameraTurnTerm) the lines of both views agree
+/// best on each model's pose: a Gauss-Newton step of poses and turn together. Sets of a model stand
+/// together. Returns nothing without lines in both views.
+std::optional<CameraTurn> camera_turn(std::span<const LineSet> sets, std::span<const double> state);
 
 /// A point on a model's surface with its unit normal, outwards. In the model's frame.
 struct SurfacePoint {

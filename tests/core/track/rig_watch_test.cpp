@@ -124,6 +124,52 @@ TEST_F(RigWatchTest, AChangeOfBrightnessIsSaidOnce) {
   EXPECT_THAT(watch_.take_notes(), ElementsAre(HasSubstr("times as bright as at the start")));
 }
 
+TEST_F(RigWatchTest, TurnsThatAreFarAndSureAreSaidOnce) {
+  constexpr double kDegree = 0.017453;
+  for (int i = 0; i < 60; ++i) {
+    watch_.look_at_turn(i, {0.1 * kDegree, 0.05 * kDegree, 0.5});  // 0.6 pixels
+    watch_.look_at_turn(i, {1 * kDegree, 0.5 * kDegree, 0.5});     // hardly known
+  }
+  for (int i = 60; i < 96; ++i)  // half of the frames say nothing
+    watch_.look_at_turn(i, {(i % 2) * 0.5 * kDegree, 0.05 * kDegree, 0.5});
+  for (int i = 100; i < 112; ++i)  // colours are learned anew
+    watch_.look_at_turn(i, {0.5 * kDegree, 0.05 * kDegree, 0.5});
+  EXPECT_THAT(watch_.take_notes(), IsEmpty());
+  for (int i = 112; i < 180; ++i) watch_.look_at_turn(i, {-0.5 * kDegree, 0.05 * kDegree, 0.5});
+  EXPECT_THAT(watch_.take_notes(),
+              ElementsAre(AllOf(HasSubstr("0.50 degrees outwards"), HasSubstr("3.6 % too short"),
+                                HasSubstr("status.correct_turn"))));
+  EXPECT_FALSE(watch_.correction());
+}
+
+TEST_F(RigWatchTest, TurnsAreUndoneOnRequest) {
+  constexpr double kTurn = 0.02;
+  const Camera& camera = pair_.cameras[1];
+  const cv::Matx33d pixels(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const cv::Matx33d back(std::cos(kTurn), 0, -std::sin(kTurn), 0, 1, 0, std::sin(kTurn), 0,
+                         std::cos(kTurn));
+  RigWatch watch = RigWatch::make(pair_.cameras, true).value();
+  const auto undone = [&] {
+    const cv::Vec3d axis =
+        watch.correction().value_or(cv::Matx33d::eye()) * cv::Vec3d(camera.cx, camera.cy, 1);
+    return std::atan((axis[0] / axis[2] - camera.cx) / camera.fx);
+  };
+  for (int i = 0; i < 200; ++i)  // outlines show a part of what is left
+    watch.look_at_turn(i, {0.7 * (kTurn - undone()), 0.001, 0.5});
+  EXPECT_THAT(watch.take_notes(), ElementsAre(HasSubstr("Its pictures are moved to fit")));
+  EXPECT_NEAR(undone(), kTurn, 0.01 * kTurn);
+  Frame now = frame(0);
+  const cv::Mat right = now.views[1].color.clone();
+  cv::warpPerspective(right, now.views[1].color, pixels * back * pixels.inv(), right.size(),
+                      cv::INTER_LINEAR | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
+  const cv::Rect inside(40, 40, TexturedPair::kWidth - 80, TexturedPair::kHeight - 80);
+  const auto difference = [&](const cv::Mat& picture) {
+    return cv::norm(picture(inside), right(inside), cv::NORM_L1) / (3.0 * inside.area());
+  };
+  EXPECT_GT(difference(now.views[1].color), 8);
+  EXPECT_LT(difference(corrected(now, watch.correction()).views[1].color), 2);
+}
+
 TEST_F(RigWatchTest, CamerasThatAreNotParallelAreNotWatched) {
   std::vector<Camera> cameras = pair_.cameras;
   cameras[1].camera_from_world.linear() =

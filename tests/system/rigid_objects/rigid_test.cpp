@@ -1,8 +1,10 @@
 // The trackers for rigid objects on a rendered box that moves, and that a board passes.
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <fstream>
 #include <optional>
@@ -16,14 +18,26 @@
 namespace hypotrack {
 namespace {
 
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
 struct BoxFrame {
   Status status;
   double error_mm;
 };
 
+/// A second camera that is turned against its calibration.
+struct WrongTurn {
+  double angle = 0;  ///< radians
+  int laps = 1;      ///< the recording is played to and fro
+  std::vector<std::string> overrides = {};
+  std::vector<std::string> notes = {};  ///< those of the tracker are added
+};
+
 /// Tracks a plain box, of which a board without a model hides what `board` says.
 std::vector<BoxFrame> track_box(const std::string& tracker, const std::string& cameras,
-                                const std::string& board) {
+                                const std::string& board, WrongTurn* wrong = nullptr) {
   const test::TemporaryDirectory folder;
   const auto file = folder.path() / "scene.yaml";
   std::ofstream(file) << fmt::format(
@@ -46,15 +60,26 @@ evaluate: {{backend: cpu}}
       cameras, board, tracker);
   const std::string term = tracker == "rigid" ? "objective.0" : "objective";
   PluginLoader plugins;
-  const std::vector<std::string> overrides = {term + ".subdivisions=2",
-                                              term + ".cache=" + folder.path().string()};
+  std::vector<std::string> overrides = {term + ".subdivisions=2",
+                                        term + ".cache=" + folder.path().string()};
+  if (wrong) overrides.insert(overrides.end(), wrong->overrides.begin(), wrong->overrides.end());
   OpenedScene session = open_scene(file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
+  if (wrong) {
+    Eigen::Isometry3d& second = session.parts.cameras.at(1).camera_from_world;
+    second = Eigen::Isometry3d(Eigen::AngleAxisd(-wrong->angle, Eigen::Vector3d::UnitY())) * second;
+  }
   std::optional<SceneTracker> found;
   std::vector<BoxFrame> out;
-  for (int i = 0; i <= 24; ++i) {
-    const Frame frame = session.source->next().value();
+  std::vector<Frame> frames;
+  const int last = wrong ? 24 * wrong->laps : 24;
+  for (int i = 0; i <= last; ++i) {
+    if (i <= 24) frames.push_back(session.source->next().value());
+    const int lap = i / 24, at = i % 24;
+    Frame frame = frames[static_cast<std::size_t>(lap % 2 == 0 ? at : 24 - at)];
+    frame.index = i;
+    frame.time = i / 30.0;
     if (!found)
       found.emplace(scene, std::move(session.parts), initial_state(session, frame), session.seed);
     const Solution s = found->track(frame);
@@ -62,6 +87,7 @@ evaluate: {{backend: cpu}}
         frame_error(layout, scene.landmarks(s.state), scene.landmarks(frame.truth->state)).mean;
     out.push_back({s.status, 1000 * error});
   }
+  if (wrong) wrong->notes = found->take_rig_notes();
   return out;
 }
 
@@ -92,6 +118,25 @@ TEST(RigidObjects, AreTrackedWithOneCamera) {
   for (const BoxFrame& frame : frames) EXPECT_LE(frame.status, Status::uncertain);
   EXPECT_LT(mean_error(frames), 3);
   EXPECT_LT(worst_error(frames), 8);
+}
+
+TEST(RigidObjects, TellByTheirOutlinesThatACameraIsTurned) {
+  for (const double angle : {0.0, 0.01, -0.01}) {
+    WrongTurn wrong{.angle = angle, .laps = 2};
+    track_box("rigid", kPair, kNothing, &wrong);
+    if (angle == 0)
+      EXPECT_THAT(wrong.notes, IsEmpty());
+    else
+      EXPECT_THAT(wrong.notes, ElementsAre(HasSubstr(angle > 0 ? "inwards" : "outwards"))) << angle;
+  }
+}
+
+TEST(RigidObjects, AreTwiceAsExactOnceATurnOfACameraIsUndone) {
+  WrongTurn wrong{.angle = 0.01, .laps = 5, .overrides = {"status.correct_turn=true"}};
+  const std::vector<BoxFrame> frames = track_box("rigid", kPair, kNothing, &wrong);
+  const double before = mean_error({frames.begin(), frames.begin() + 20});
+  EXPECT_LT(mean_error({frames.end() - 20, frames.end()}), before / 2);
+  EXPECT_THAT(wrong.notes, ElementsAre(HasSubstr("Its pictures are moved to fit")));
 }
 
 TEST(RigidObjects, AreNeitherLostNorTurnedBehindABoard) {

@@ -5,11 +5,32 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 
+#include "hypotrack/api/export.hpp"
 #include "hypotrack/plugin/params.hpp"
 #include "hypotrack/plugin/search.hpp"
 
 namespace hypotrack {
+
+/// How the second of two cameras is turned against its calibration, judged by one frame.
+struct CameraTurn {
+  double angle = 0;     ///< radians about the rig's y axis; positive: towards the first camera
+  double sigma = 0;     ///< its standard deviation
+  double distance = 0;  ///< of the models from that camera, metres
+};
+
+/// An objective that judges each view by itself may also derive from this: views that contradict
+/// each other then tell the tracker of a wrong calibration.
+class HYPOTRACK_API CameraTurnTerm {
+ public:
+  virtual ~CameraTurnTerm() = default;
+
+  /// Returns the turn that makes both views of the prepared frame agree on poses near a state.
+  /// Returns nothing without two views, or if they show too little.
+  virtual std::optional<CameraTurn> camera_turn(std::span<const double> state) const = 0;
+};
 
 // Helpers for optimizers that linearise residuals.
 

@@ -6,10 +6,14 @@
 namespace hypotrack::internal {
 
 PictureWatch::PictureWatch(const std::vector<Camera>& cameras,
-                           const std::vector<ObjectiveTerm>& terms, bool is_on) {
+                           const std::vector<ObjectiveTerm>& terms, bool is_on,
+                           bool corrects_turn) {
   if (!is_on) return;
   checks_.emplace(cameras, joined_use(terms).depth);
-  rig_ = RigWatch::make(cameras);
+  rig_ = RigWatch::make(cameras, corrects_turn);
+  for (const ObjectiveTerm& term : terms)
+    if (const auto* views = dynamic_cast<const CameraTurnTerm*>(term.objective.get()))
+      views_ = views;
 }
 
 ViewFault PictureWatch::check(const Frame& frame) {
@@ -51,6 +55,12 @@ bool PictureWatch::doubts_depth(int frame, bool is_searched) {
     rig_->look_at_colors(colors->first, colors->second);
   if (is_searched) searched_ = frame;
   return rig_->is_doubtful();
+}
+
+void PictureWatch::compare_views(int frame, const Eigen::VectorXd& state) {
+  if (!rig_ || !views_) return;
+  if (const auto turn = views_->camera_turn({state.data(), static_cast<std::size_t>(state.size())}))
+    rig_->look_at_turn(frame, *turn);
 }
 
 std::vector<std::string> PictureWatch::take_notes() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "cost/cost.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/linearization.hpp"
 #include "tile/color_map.hpp"
 #include "track/faults/picture_checks.hpp"
 #include "track/faults/steady_brightness.hpp"
@@ -22,9 +24,10 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Watches pictures and cameras for faults, and makes up for those that allow it.
 class PictureWatch {
  public:
-  /// `is_on`: otherwise it finds nothing but the faults that frames come with.
+  /// The terms must outlive it. `is_on`: otherwise it finds nothing but the faults that frames come
+  /// with. `corrects_turn`: as RigWatch::make() says.
   PictureWatch(const std::vector<Camera>& cameras, const std::vector<ObjectiveTerm>& terms,
-               bool is_on);
+               bool is_on, bool corrects_turn = false);
 
   /// Returns the worst fault of the next frame. Call it with all frames that have views, in order.
   /// It takes a jump of brightness out of this frame and later ones, and may go on to look at the
@@ -39,6 +42,9 @@ class PictureWatch {
   /// Takes the number of a frame, and whether its search is done. Returns whether depth may be
   /// wrong, for the cameras do not fit their calibration.
   bool doubts_depth(int frame, bool is_searched);
+  /// Lets what the terms prepared for a frame in which all models were tracked, perhaps not surely,
+  /// tell of the cameras. Takes the models' state. Call it after doubts_depth().
+  void compare_views(int frame, const Eigen::VectorXd& state);
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_notes();
 
@@ -58,7 +64,8 @@ class PictureWatch {
   std::optional<PictureChecks> checks_;
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
-  std::optional<cv::Matx23d> correction_;  ///< RigWatch::correction() as of the last check()
+  const CameraTurnTerm* views_ = nullptr;  ///< judges each view by itself; null: no term does
+  std::optional<cv::Matx33d> correction_;  ///< RigWatch::correction() as of the last check()
   std::optional<int> searched_;            ///< frame whose learned colours it has not taken
   std::optional<std::pair<int, ColorMap>> colors_;  ///< of such a frame, to be looked at
   SideWork looking_{"look at the rig"};             ///< beside the search

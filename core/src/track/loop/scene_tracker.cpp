@@ -18,7 +18,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
                            std::uint64_t seed)
     : loop_(scene, parts, std::move(start), seed),
       terms_(parts.objective),
-      pictures_(parts.cameras, terms_, loop_.settings.check_pictures && look_at_pictures(terms_)),
+      pictures_(parts.cameras, terms_, loop_.settings.check_pictures && look_at_pictures(terms_),
+                loop_.settings.correct_turn),
       judge_(loop_),
       arena_(parts.evaluate.threads > 0 ? parts.evaluate.threads : tbb::task_arena::automatic),
       background_(arena_.max_concurrency()) {
@@ -47,7 +48,9 @@ Solution SceneTracker::track_here(const Frame& frame, SearchRecord* record, Fram
       detail::in_frame(steady.index,
                        [&] { find_or_leave_device(steady, solution, record, trace); });
       const bool is_searched = !background_.is_running();
+      const bool is_followed = is_searched && solution.status <= Status::uncertain;
       if (pictures_.doubts_depth(steady.index, is_searched)) call_uncertain(solution);
+      if (is_followed) pictures_.compare_views(steady.index, loop_.trail.state());
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();

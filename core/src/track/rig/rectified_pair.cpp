@@ -2,8 +2,10 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -76,7 +78,7 @@ std::optional<RectifiedPair> RectifiedPair::make(const std::array<Camera, 2>& ca
       (rig.ideal_from_world[0].translation() - rig.ideal_from_world[1].translation()).norm();
   out.center_ = -out.focal_ * field.lowest;
   out.second_ = cameras[1];
-  out.second_from_small_ = rig.camera_from_ideal[1].topLeftCorner<2, 2>();
+  out.second_from_ideal_ = rig.camera_from_ideal[1];
   out.shrink_ = std::max(1, static_cast<int>(cameras[0].fx / out.focal_ + 0.1));
   TileCamera small;
   small.width = static_cast<int>(std::floor(out.focal_ * extent.x()));
@@ -114,12 +116,25 @@ GreyPair RectifiedPair::resample(const Frame& frame) const {
   return out;
 }
 
-cv::Matx23d RectifiedPair::displacement(double roll, double scale,
+cv::Matx33d RectifiedPair::displacement(double roll, double scale,
                                         const Eigen::Vector2d& shift) const {
   const Eigen::Matrix2d turn = (1 + scale) * Eigen::Rotation2Dd(roll).toRotationMatrix();
   const Eigen::Vector2d center(second_.cx, second_.cy);
-  const Eigen::Vector2d to = center - turn * center + this->scale() * (second_from_small_ * shift);
-  return {turn(0, 0), turn(0, 1), to.x(), turn(1, 0), turn(1, 1), to.y()};
+  const Eigen::Vector2d to =
+      center - turn * center + this->scale() * (second_from_ideal_.topLeftCorner<2, 2>() * shift);
+  return {turn(0, 0), turn(0, 1), to.x(), turn(1, 0), turn(1, 1), to.y(), 0, 0, 1};
+}
+
+cv::Matx33d RectifiedPair::turned(double angle) const {
+  Eigen::Matrix3d pixels;
+  pixels << second_.fx, 0, second_.cx, 0, second_.fy, second_.cy, 0, 0, 1;
+  const Eigen::Matrix3d pixels_from_ideal = pixels * second_from_ideal_;
+  const Eigen::Matrix3d map = pixels_from_ideal *
+                              Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()) *
+                              pixels_from_ideal.inverse();
+  cv::Matx33d out;
+  cv::eigen2cv(map, out);
+  return out;
 }
 
 }  // namespace hypotrack::internal

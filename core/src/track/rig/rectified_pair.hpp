@@ -31,13 +31,16 @@ class RectifiedPair {
   double scale() const { return second_.fx / focal_; }
   /// Returns the second camera's pixels where a displacement of what it shows is undone: a rotation
   /// (radians, clockwise) and a scale about the optical axis, then a shift in small pixels.
-  cv::Matx23d displacement(double roll, double scale, const Eigen::Vector2d& shift) const;
+  cv::Matx33d displacement(double roll, double scale, const Eigen::Vector2d& shift) const;
+  /// Returns the second camera's pixels where a turn (CameraTurn, radians) is undone, without lens
+  /// distortion.
+  cv::Matx33d turned(double angle) const;
 
  private:
   double focal_ = 0, baseline_ = 0;  ///< pixels, metres
   Eigen::Vector2d center_;
   Camera second_;
-  Eigen::Matrix2d second_from_small_;            ///< directions in the pictures
+  Eigen::Matrix3d second_from_ideal_;            ///< directions
   int shrink_ = 1;                               ///< pixels of a picture that are averaged
   std::array<cv::Mat, 2> x_, y_;                 ///< in the shrunken pictures
   std::array<std::optional<cv::Rect>, 2> part_;  ///< of those, where no pixel is between others

@@ -18,6 +18,7 @@ namespace {
 constexpr double kSure = 4;        // standard deviations
 constexpr int kFewest = 12;        // matches: three for each number that is fitted
 constexpr double kNearest = 0.25;  // metres
+constexpr double kFar = 1.5;       // pixels from the epipolar lines, as `calibration check` has it
 
 bool is_pair(const Frame& frame) {
   if (frame.views.size() != 2) return false;
@@ -35,17 +36,25 @@ double brightness_of(const ColorMap& colors) {
   return sum / 3;
 }
 
+/// Returns the median of angles, and what three quarters of them exceed on its side of zero.
+std::pair<double, double> median_and_quartile(std::vector<double> angles) {
+  std::ranges::sort(angles);
+  const std::size_t quarter = angles.size() / 4;
+  const double median = angles[angles.size() / 2];
+  return {median, median > 0 ? angles[quarter] : -angles[angles.size() - 1 - quarter]};
+}
+
 }  // namespace
 
-std::optional<RigWatch> RigWatch::make(const std::vector<Camera>& cameras) {
+std::optional<RigWatch> RigWatch::make(const std::vector<Camera>& cameras, bool corrects_turn) {
   if (cameras.size() != 2) return std::nullopt;
   auto pair = RectifiedPair::make({cameras[0], cameras[1]});
   if (!pair) return std::nullopt;
-  return RigWatch(*std::move(pair));
+  return RigWatch(*std::move(pair), corrects_turn);
 }
 
-RigWatch::RigWatch(RectifiedPair pair)
-    : pair_(std::move(pair)), timing_(pair_.disparity(kNearest)) {}
+RigWatch::RigWatch(RectifiedPair pair, bool corrects_turn)
+    : pair_(std::move(pair)), timing_(pair_.disparity(kNearest)), corrects_turn_(corrects_turn) {}
 
 void RigWatch::look(const Frame& frame) {
   constexpr std::size_t kRecent = 15;  // frames
@@ -70,7 +79,6 @@ void RigWatch::look(const Frame& frame) {
 
 void RigWatch::look_at_rows(const GreyPair& pictures, int frame) {
   constexpr double kRows = 0.06;  // of the height: 20 rows of 360
-  constexpr double kFar = 1.5;    // pixels from the epipolar lines, as `calibration check` has it
   const MatchRange range{pair_.disparity(kNearest), static_cast<int>(kRows * pictures[0].rows)};
   fit_.add(match_rows(pictures, pair_.center(), range));
   estimate_ = fit_.estimate();
@@ -138,12 +146,44 @@ void RigWatch::look_at_colors(int frame, const ColorMap& colors) {
       frame, 1 / times));
 }
 
-std::optional<cv::Matx23d> RigWatch::correction() const {
-  if (misaligned_ == 0) return std::nullopt;
-  return pair_.displacement(estimate_.roll, estimate_.scale, {0, estimate_.rows});
+void RigWatch::look_at_turn(int frame, const CameraTurn& turn) {
+  constexpr std::ptrdiff_t kEnough = 12;  // frames
+  const double focal = pair_.scale() * pair_.focal();
+  if (!(turn.sigma * focal < kFar)) return;
+  turns_.push_back(turn.angle);
+  if (std::ssize(turns_) < 2 * kEnough) return;
+  // Colours of the outlines are learned in the first frames, where they are wrong with the start.
+  const auto [before, before_sure] = median_and_quartile({turns_.begin(), turns_.end() - kEnough});
+  const auto [median, sure] = median_and_quartile({turns_.end() - kEnough, turns_.end()});
+  turns_.erase(turns_.begin(), turns_.end() - kEnough);
+  const bool lasts = std::min(before_sure, sure) * focal > kFar && (before > 0) == (median > 0);
+  if (!turn_said_ && !lasts) return;
+  turns_.clear();
+  if (corrects_turn_) turn_ += median;
+  if (std::exchange(turn_said_, true)) return;
+  const double share = 100 * pair_.focal() * std::abs(median) / pair_.disparity(turn.distance);
+  notes_.push_back(fmt::format(
+      "frame {}: judged by the outlines of models in each view, the second camera is turned at "
+      "least {:.2f} degrees {} against the calibration ({:.1f} px). A baseline that is {:.1f} % "
+      "too "
+      "{}, or models that much too {}, would look alike. {}. Check the models' sizes, and "
+      "calibrate "
+      "again",
+      frame, std::abs(median) * 180 / std::numbers::pi, median > 0 ? "inwards" : "outwards",
+      std::abs(median) * focal, share, median > 0 ? "long" : "short",
+      median > 0 ? "small" : "large",
+      corrects_turn_ ? "Its pictures are moved to fit"
+                     : "Depth is wrong; `status.correct_turn: true` moves its pictures to fit"));
 }
 
-Frame corrected(const Frame& frame, const std::optional<cv::Matx23d>& correction) {
+std::optional<cv::Matx33d> RigWatch::correction() const {
+  if (misaligned_ == 0 && turn_ == 0) return std::nullopt;
+  const cv::Matx33d turned = pair_.turned(turn_);
+  if (misaligned_ == 0) return turned;
+  return pair_.displacement(estimate_.roll, estimate_.scale, {0, estimate_.rows}) * turned;
+}
+
+Frame corrected(const Frame& frame, const std::optional<cv::Matx33d>& correction) {
   if (!correction || !is_pair(frame)) return frame;
   Frame out = frame;
   View& view = out.views[1];
@@ -151,8 +191,8 @@ Frame corrected(const Frame& frame, const std::optional<cv::Matx23d>& correction
     if (image->empty()) continue;
     const int lookup = image == &view.color ? cv::INTER_LINEAR : cv::INTER_NEAREST;
     cv::Mat moved;  // the source keeps its picture
-    cv::warpAffine(*image, moved, *correction, image->size(), lookup | cv::WARP_INVERSE_MAP,
-                   cv::BORDER_REPLICATE);
+    cv::warpPerspective(*image, moved, *correction, image->size(), lookup | cv::WARP_INVERSE_MAP,
+                        cv::BORDER_REPLICATE);
     *image = moved;
   }
   return out;

@@ -10,6 +10,7 @@
 #include "base/exported.hpp"
 #include "hypotrack/api/camera.hpp"
 #include "hypotrack/api/frame.hpp"
+#include "hypotrack/plugin/linearization.hpp"
 #include "tile/color_map.hpp"
 #include "track/rig/rectified_pair.hpp"
 #include "track/rig/rig_fit.hpp"
@@ -21,11 +22,14 @@ inline namespace HYPOTRACK_EXPORTED internal {
 /// Watches whether the pictures of a pair of cameras agree with their calibration, are taken at the
 /// same time and stay as bright. It looks at whole pictures, often at first and then twice a
 /// second, and at what moves until that tells the time between the views, anew after some seconds.
+/// Outlines of tracked models tell how the second camera is turned.
 class RigWatch {
  public:
   /// Returns nothing for cameras that are not nearly parallel: it cannot compare their
   /// pictures.
-  static std::optional<RigWatch> make(const std::vector<Camera>& cameras);
+  /// `corrects_turn`: correction() includes the turns of look_at_turn().
+  static std::optional<RigWatch> make(const std::vector<Camera>& cameras,
+                                      bool corrects_turn = false);
 
   /// Takes the next frame as it came. Frames without two views of colour teach nothing.
   void look(const Frame& frame);
@@ -34,10 +38,12 @@ class RigWatch {
   bool learns_rows() const { return frames_ < kInterval && frames_ >= next_; }
   /// Takes the map from the second view's colours to the first's in a frame that was tracked.
   void look_at_colors(int frame, const ColorMap& colors);
+  /// Takes how the second camera seems turned in a frame that was tracked, with correction().
+  void look_at_turn(int frame, const CameraTurn& turn);
 
   /// Returns the inverse of the map that moves the second view's pictures to where the calibration
   /// has them; nothing if they are there.
-  std::optional<cv::Matx23d> correction() const;
+  std::optional<cv::Matx33d> correction() const;
   /// Returns whether depth may be wrong in spite of that.
   bool is_doubtful() const { return is_late_ || misaligned_ > kMostRows; }
 
@@ -46,7 +52,7 @@ class RigWatch {
   const RigEstimate& estimate() const { return estimate_; }
 
  private:
-  explicit RigWatch(RectifiedPair pair);
+  RigWatch(RectifiedPair pair, bool corrects_turn);
   void look_at_rows(const GreyPair& pictures, int frame);
   void look_at_time(const GreyPair& pictures, int frame);
 
@@ -68,11 +74,14 @@ class RigWatch {
   double brightness_ = 0;  ///< of the first view against the second, after those
   int other_frames_ = 0;   ///< frames in a row with another brightness
   bool brightness_said_ = false;
+  bool corrects_turn_, turn_said_ = false;
+  std::vector<double> turns_;  ///< radians, of the frames since the last conclusion
+  double turn_ = 0;            ///< radians that correction() undoes
   std::vector<std::string> notes_;
 };
 
 /// Returns a frame with the pictures of the second of two views moved by RigWatch::correction().
-Frame corrected(const Frame& frame, const std::optional<cv::Matx23d>& correction);
+Frame corrected(const Frame& frame, const std::optional<cv::Matx33d>& correction);
 
 }  // namespace internal
 }  // namespace hypotrack

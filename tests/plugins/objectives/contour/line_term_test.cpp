@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <random>
 
 #include "box_pictures.hpp"
@@ -55,6 +56,40 @@ TEST(LineTerm, CostIsTheSumOfSquares) {
         test::sum_of_squares(test::written_residuals(*objective, hypothesis(state)));
     EXPECT_NEAR(squares, objective->cost(hypothesis(state)), 1e-4 * squares);
   }
+}
+
+/// Returns what outlines tell of pictures whose second camera is turned by an angle.
+CameraTurn turn_of(double angle, double displaced) {
+  BoxPictures& pictures = box_pictures();
+  const auto objective = pictures.objective();
+  Observation seen =
+      pictures.seen(pictures.state(), pictures.displaced({0, 0, displaced}, {0, 0, 0}));
+  TileCamera& second = seen.views[1].camera;  // as a calibration has it that lacks the turn
+  const Eigen::Isometry3d back(Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()));
+  second.camera_from_world = back * second.camera_from_world;
+  objective->prepare(seen);
+  const Eigen::VectorXd state = objective->refined_start();
+  return objective->camera_turn(test::values_of(state)).value();
+}
+
+TEST(CameraTurns, AreToldByTheOutlinesOfBothViews) {
+  constexpr double kTurn = 0.01;
+  EXPECT_NEAR(turn_of(0, 0).angle, 0, 0.1 * kTurn);
+  EXPECT_NEAR(turn_of(kTurn, 0).angle, kTurn, 0.4 * kTurn);
+  EXPECT_NEAR(turn_of(-kTurn, 0.01).angle, -kTurn, 0.4 * kTurn);
+  const CameraTurn turn = turn_of(kTurn, 0);
+  EXPECT_NEAR(turn.distance, 0.5, 0.05);
+  EXPECT_LT(turn.sigma, 0.5 * kTurn);
+}
+
+TEST(CameraTurns, AreNotToldByOneView) {
+  BoxPictures& pictures = box_pictures();
+  const auto objective = pictures.objective();
+  Observation seen = pictures.seen(pictures.state(), pictures.state());
+  seen.views.resize(1);
+  objective->prepare(seen);
+  const Eigen::VectorXd state = pictures.state();
+  EXPECT_FALSE(objective->camera_turn(test::values_of(state)));
 }
 
 TEST(LineTerm, IsBoundedAndTheSameBehindTheCamera) {
