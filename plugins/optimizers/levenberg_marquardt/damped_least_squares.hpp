@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "hypotrack/plugin/damped_steps.hpp"
 #include "hypotrack/plugin/linearization.hpp"
-#include "hypotrack/plugin/numbers.hpp"
 #include "hypotrack/plugin/search.hpp"
 #include "levenberg_marquardt_params.hpp"
 
@@ -14,8 +14,7 @@ namespace hypotrack {
 /// for. It moves in units of the region's spread.
 class DampedLeastSquares {
  public:
-  /// What the search waits for.
-  enum class Wants { costs, equations, nothing };
+  using Wants = DampedSteps::Wants;
 
   /// Where the equations come from.
   enum class Source {
@@ -28,7 +27,7 @@ class DampedLeastSquares {
   DampedLeastSquares(const SearchRegion& region, std::int64_t evaluations,
                      const LevenbergMarquardtParams& params, Source source);
 
-  Wants wants() const { return wants_; }
+  Wants wants() const { return steps_.wants; }
 
   /// Returns the points whose costs it wants.
   const Eigen::MatrixXd& points() const { return points_; }
@@ -47,32 +46,25 @@ class DampedLeastSquares {
   const OptimizerResult& result() const { return best_.result(); }
 
  private:
-  std::int64_t remaining() const { return evaluations_ - best_.result().evaluations; }
   Eigen::VectorXd step(double damping) const;
-  void move_to(Eigen::Index point, const Eigen::VectorXd& costs);
-  /// Returns the evaluations that the next equations take.
-  std::int64_t price() const;
-  void want_equations();
-  void want_trials(int round);
-  void end_of_steps(bool gained);
+  void move_to(Eigen::Index point) { x_ = points_.col(point); }
+  void count(std::int64_t evaluations) { steps_.evaluations += evaluations; }
+  /// Makes points() the trial steps that the search wants, if it wants any.
+  void place_trials();
 
   const SearchRegion& region_;
-  const std::int64_t evaluations_;
-  const LevenbergMarquardtParams params_;
   const Source source_;
   BestSoFar best_;
-  Wants wants_ = Wants::costs;
-
-  Eigen::VectorXd x_;  ///< current point
-  double cost_at_x_ = 0;
-  double sign_ = 1;      ///< of the differences
-  double fineness_ = 1;  ///< of differences or blur, as a share of the first
-  Damping damping_;
+  DampedSteps steps_;
+  Eigen::VectorXd x_;          ///< current point
+  double sign_ = 1;            ///< of the differences
   NormalEquations equations_;  ///< at x, per spread
   Eigen::MatrixXd points_;     ///< the start, or trial steps
-  int round_ = -1;             ///< of trial steps; -1: the start
-  double lowest_ = 0;          ///< damping of the first trial step
-  int jacobians_ = 0, failed_ = 0;
 };
+
+/// Returns the decisions' settings of a search in `dimension` dimensions.
+DampedSettings damped_settings(const LevenbergMarquardtParams& params,
+                               DampedLeastSquares::Source source, std::int64_t evaluations,
+                               Eigen::Index dimension);
 
 }  // namespace hypotrack

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "damped_least_squares.hpp"
+#include "hypotrack/gpu/device_cost.hpp"
 
 namespace hypotrack {
 namespace {
@@ -64,6 +65,31 @@ void run_in_step(CostFunction& cost, ResidualCost& residuals, const Deadline& de
   }
 }
 
+/// Searches all regions with steps that stay on the GPU. Returns nothing if the cost has no such
+/// search.
+std::vector<OptimizerResult> descend_on_device(CostFunction& cost,
+                                               std::span<const SearchRegion> regions,
+                                               const DampedSettings& settings,
+                                               const Deadline& deadline) {
+  cuda::DeviceCost* device = cost.device();
+  if (!device) return {};
+  std::vector<OptimizerResult> out(regions.size());
+  std::vector<cuda::Descent> searches;
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    const SearchRegion& region = regions[k];
+    out[k].point.resize(region.start.size());
+    searches.push_back({region.start.data(), region.lower.data(), region.upper.data(),
+                        region.spread.data(), out[k].point.data()});
+  }
+  if (!device->descend(settings, cost.dimension(), searches, [&] { return deadline.passed(); }))
+    return {};
+  for (std::size_t k = 0; k < regions.size(); ++k) {
+    out[k].cost = searches[k].cost;
+    out[k].evaluations = searches[k].evaluations;
+  }
+  return out;
+}
+
 /// Runs a search with numerical Jacobians.
 void run_numerically(ResidualCost& residuals, const SearchRegion& region, const Deadline& deadline,
                      DampedLeastSquares& search) {
@@ -120,11 +146,17 @@ std::vector<OptimizerResult> LevenbergMarquardt::search_each(CostFunction& cost,
                         : residuals->draws_neighbours() ? Source::mixed
                                                         : Source::analytic;
   const Deadline deadline(budget.seconds);
-  std::vector<DampedLeastSquares> searches;
-  for (const SearchRegion& region : regions) {
-    check_search(cost, region, budget);
-    searches.emplace_back(region, budget.evaluations, params_, source);
+  for (const SearchRegion& region : regions) check_search(cost, region, budget);
+  // Whoever watches a search sees the batches of one on the host: the same search, up to rounding.
+  if (source == Source::analytic && !cost.is_watched()) {
+    const DampedSettings settings =
+        damped_settings(params_, source, budget.evaluations, cost.dimension());
+    auto found = descend_on_device(cost, regions, settings, deadline);
+    if (!found.empty()) return found;
   }
+  std::vector<DampedLeastSquares> searches;
+  for (const SearchRegion& region : regions)
+    searches.emplace_back(region, budget.evaluations, params_, source);
   if (analytic) {
     run_in_step(cost, *residuals, deadline, searches);
   } else {

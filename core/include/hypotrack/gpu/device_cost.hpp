@@ -1,11 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 
 #include "hypotrack/api/export.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
+#include "hypotrack/plugin/damped_steps.hpp"
 
 namespace hypotrack::cuda {
+
+/// A search by damped least squares and its answer, in memory of the host. Arrays have a number per
+/// dimension of the search.
+struct Descent {
+  const double* start;
+  const double* lower;
+  const double* upper;
+  const double* spread;
+  double* point;                 ///< the best point evaluated
+  double cost = 0;               ///< of that point
+  std::int64_t evaluations = 0;  ///< that were made
+};
 
 /// A cost function with points and costs in device memory, from CostFunction::device().
 class HYPOTRACK_API DeviceCost {
@@ -27,6 +42,13 @@ class HYPOTRACK_API DeviceCost {
   /// Enqueues a whole search as one kernel, if possible; reserve() must precede it with the number
   /// of particles. Returns false if it enqueued nothing.
   virtual bool enqueue_search(const SwarmSearch& search);
+
+  /// Searches by damped least squares (DampedSteps), all in step, from points of `dimension`
+  /// numbers. Steps stay on the GPU. Returns false, and did nothing, where the terms or the sizes
+  /// do not allow it. Asks `ends()` now and then; true ends all searches. Throws Error as
+  /// CostFunction::evaluate().
+  virtual bool descend(const DampedSettings& settings, std::int32_t dimension,
+                       std::span<Descent> searches, const std::function<bool()>& ends);
 
   /// Returns a number that stays the same, over frames, as long as a graph captured from enqueue()
   /// remains valid.

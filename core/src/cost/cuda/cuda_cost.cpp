@@ -5,8 +5,10 @@
 #include <optional>
 #include <utility>
 
+#include "base/profile.hpp"
 #include "cost/backends.hpp"
 #include "cost/cuda/backend_text.hpp"
+#include "cost/cuda/descend/device_descent.hpp"
 #include "cost/cuda/draw/device_scene.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
@@ -85,6 +87,13 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
         {nullptr, search.particles, nullptr, 0, rotation_vectors_ ? prior_.data() : nullptr, false},
         search);
   }
+  bool descend(const DampedSettings& settings, std::int32_t dimension, std::span<Descent> searches,
+               const std::function<bool()>& ends) override {
+    if (!sum_of_squares_ || !descent_.can_run(settings, dimension, searches.size())) return false;
+    const ProfiledPart part("steps on the GPU");
+    descent_.run(settings, dimension, searches, rotation_vectors_ ? prior_.data() : nullptr, ends);
+    return true;
+  }
   std::uint64_t revision() const override { return revision_ + frame_.revision(); }
 
  protected:
@@ -153,6 +162,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   bool sum_of_squares_;
   ResidualMemory residual_memory_;
   DeviceLinearizer linearizer_{*this, frame_};
+  DeviceDescent descent_{frame_, linearizer_};
   DeviceBuffer<double> prior_;
   PinnedBuffer<double> prior_staging_;
   bool rotation_vectors_ = false;

@@ -77,7 +77,14 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
   };
   if (!work_.launch(arguments(), frame_.stream())) {
     reserve(count, columns);
-    work_.enqueue(arguments(), frame_.stream(), [&] { enqueue(count, columns); });
+    work_.enqueue(arguments(), frame_.stream(), [&] {
+      const LinearizedStates at = taken(count, columns);
+      batch_.upload(frame_.stream());
+      to_device(numbers_, numbers_staging_, size(std::int64_t{count} * (columns + 1)),
+                frame_.stream());
+      enqueue(at);
+      download(at);
+    });
   }
   wait_for(frame_.stream(), "linearising");
   const bool differs = frame_.difference_residual_count() > 0;
@@ -104,9 +111,17 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
   }
 }
 
-void DeviceLinearizer::enqueue(int points, int columns) {
+LinearizedStates DeviceLinearizer::taken(int points, int columns) const {
+  return {.points = points,
+          .columns = columns,
+          .states = batch_.layout(),
+          .per_step = numbers_.data(),
+          .blurs = numbers_.data() + std::int64_t{points} * columns};
+}
+
+void DeviceLinearizer::enqueue(const LinearizedStates& at) {
   try {
-    enqueue_all(points, columns);
+    enqueue_all(at);
   } catch (...) {
     frame_.end_sides();
     for (const SideStream* side : {&posing_, &differences_}) side->end();
@@ -114,18 +129,25 @@ void DeviceLinearizer::enqueue(int points, int columns) {
   }
 }
 
-void DeviceLinearizer::enqueue_all(int points, int columns) {
-  batch_.upload(frame_.stream());
-  to_device(numbers_, numbers_staging_, size(std::int64_t{points} * (columns + 1)),
-            frame_.stream());
+void DeviceLinearizer::enqueue_all(const LinearizedStates& at) {
   const bool differs = frame_.difference_residual_count() > 0;
   const bool draws_differences = differs && frame_.draws_differences();
   // What does not need the drawing runs beside it.
   differences_.fork(frame_.stream());
-  if (differs && !draws_differences) enqueue_differences(points, columns);
-  if (frame_.sloped_terms() > 0) enqueue_rows(points, columns);
-  if (draws_differences) enqueue_differences(points, columns);
+  if (differs && !draws_differences) enqueue_differences(at);
+  if (frame_.sloped_terms() > 0) enqueue_rows(at);
+  if (draws_differences) enqueue_differences(at);
   differences_.join(frame_.stream());
+}
+
+void DeviceLinearizer::download(const LinearizedStates& at) {
+  const std::int64_t points = at.points;
+  const Stream stream = frame_.stream();
+  if (row_sums())
+    to_host(row_sums_staging_, row_sums_, 0, size(points * row_numbers(at.columns)), stream);
+  if (!gram_sums()) return;
+  to_host(gram_sums_staging_, gram_sums_, 0, size(points * gram_numbers(at.columns)), stream);
+  if (frame_.draws_differences()) batch_.download(0, points * (at.columns + 2), stream);
 }
 
 Eigen::VectorXd DeviceLinearizer::per_step(int k, int columns) const {
@@ -182,27 +204,27 @@ void DeviceLinearizer::take(std::span<const Neighbourhood> points,
   batch_.take(cost_.normalized(states, states.cols()));
 }
 
-void DeviceLinearizer::enqueue_rows(int points, int columns) {
+void DeviceLinearizer::enqueue_rows(const LinearizedStates& at) {
   const Stream stream = frame_.stream();
-  BatchLayout centres = batch_.layout();
-  centres.count = points;
-  PixelRowsJob job{
-      .frame = frame_.observation().frame,
-      .view_count = frame_.view_count(),
-      .pair = frame_.observation().pair,
-      .pixels = static_cast<int>(frame_.pixels()),
-      .terms = frame_.sloped_terms(),
-      .columns = columns,
-      .points = points,
-      .states = batch_.layout().points + std::int64_t{points} * frame_.scene().dimension,
-      .per_step = numbers_.data(),
-      .blurs = numbers_.data() + std::int64_t{points} * columns,
-      .depth = nullptr,
-      .slopes = slopes_.data(),
-      .records = records_.data(),
-      .owners = owners_.data(),
-      .parts = row_parts_.data(),
-      .sums = row_sums_.data()};
+  BatchLayout centres = at.states;
+  centres.count = at.points;
+  PixelRowsJob job{.frame = frame_.observation().frame,
+                   .view_count = frame_.view_count(),
+                   .pair = frame_.observation().pair,
+                   .pixels = static_cast<int>(frame_.pixels()),
+                   .terms = frame_.sloped_terms(),
+                   .columns = at.columns,
+                   .points = at.points,
+                   .states = at.states.points + std::int64_t{at.points} * frame_.scene().dimension,
+                   .per_step = at.per_step,
+                   .blurs = at.blurs,
+                   .depth = nullptr,
+                   .slopes = slopes_.data(),
+                   .records = records_.data(),
+                   .owners = owners_.data(),
+                   .parts = row_parts_.data(),
+                   .sums = row_sums_.data(),
+                   .rests = at.rests};
   posing_.fork(stream);
   enqueue_posing(frame_.scene(), frame_.device().limits(), job, posing_.stream());
   const DrawnBatch drawn = frame_.draw(centres);
@@ -212,30 +234,25 @@ void DeviceLinearizer::enqueue_rows(int points, int columns) {
   enqueue_owners(frame_.scene(), frame_.device().limits(), job, stream);
   frame_.join_slopes();
   enqueue_pixel_rows(frame_.scene(), frame_.device().limits(), job, stream);
-  to_host(row_sums_staging_, row_sums_, 0, size(std::int64_t{points} * row_numbers(columns)),
-          stream);
 }
 
-void DeviceLinearizer::enqueue_differences(int points, int columns) {
+void DeviceLinearizer::enqueue_differences(const LinearizedStates& at) {
   const Stream stream = frame_.draws_differences() ? frame_.stream() : differences_.stream();
   const std::int64_t rows = frame_.difference_residual_count();
-  BatchLayout states = batch_.layout();
-  states.points += std::int64_t{points} * frame_.scene().dimension;
-  states.costs += points;  // behind those of the drawn states
-  states.count = std::int64_t{points} * (columns + 1);
+  BatchLayout states = at.states;
+  states.points += std::int64_t{at.points} * frame_.scene().dimension;
+  states.costs += at.points;  // behind those of the drawn states
+  states.count = std::int64_t{at.points} * (at.columns + 1);
   frame_.enqueue_differences(states, residuals_.data(), stream);
   enqueue_gram({.here = residuals_.data(),
                 .beside = residuals_.data() + rows,
                 .rows = rows,
-                .dimension = columns,
+                .dimension = at.columns,
                 .parts = gram_parts_.data(),
                 .sums = gram_sums_.data(),
-                .count = points,
-                .stride = rows * (columns + 1)},
+                .count = at.points,
+                .stride = rows * (at.columns + 1)},
                stream);
-  to_host(gram_sums_staging_, gram_sums_, 0, size(std::int64_t{points} * gram_numbers(columns)),
-          stream);
-  if (frame_.draws_differences()) batch_.download(0, Eigen::Index{points} * (columns + 2), stream);
 }
 
 }  // namespace hypotrack::cuda::internal

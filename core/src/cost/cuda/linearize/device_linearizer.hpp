@@ -17,6 +17,17 @@
 namespace hypotrack::cuda {
 inline namespace HYPOTRACK_EXPORTED internal {
 
+/// States of points of linearisation in device memory, for D columns.
+struct LinearizedStates {
+  int points;   ///< at most DeviceLinearizer::most_together()
+  int columns;  ///< D
+  /// The drawn states of all points; then D + 1 of each: the drawn one, and one per column.
+  BatchLayout states;
+  const float* per_step;  ///< per point D: 1 / the change of the column's parameter, 0 for none
+  const float* blurs;     ///< per point
+  const std::int32_t* rests = nullptr;  ///< per point: PixelRowsJob::rests; null: none rests
+};
+
 /// Computes normal equations of the terms' residuals on the GPU: the HostLinearizer of the CPU,
 /// there. Terms with slopes take one drawn hypothesis. The results are the same in every run.
 class DeviceLinearizer {
@@ -28,20 +39,35 @@ class DeviceLinearizer {
   /// DeviceError if there is too little memory.
   std::vector<NormalEquations> linearize(std::span<const Neighbourhood> points);
 
+  // For searches in device memory; the terms without slopes must be terms of the state.
+  /// Returns how many of so many points can be linearised together.
+  std::size_t most_together(std::size_t points);
+  /// Allocates memory for such states. Throws DeviceError if there is too little.
+  void reserve(std::int64_t points, int columns);
+  /// Enqueues the computation of row_sums() and gram_sums(). If it throws, nothing goes on beside
+  /// the stream.
+  void enqueue(const LinearizedStates& at);
+  /// Returns the sums of enqueue_pixel_rows() in device memory; null without terms with slopes.
+  const double* row_sums() const { return frame_.sloped_terms() > 0 ? row_sums_.data() : nullptr; }
+  /// Returns the sums of enqueue_gram() in device memory; null without terms of other kinds.
+  const double* gram_sums() const {
+    return frame_.difference_residual_count() > 0 ? gram_sums_.data() : nullptr;
+  }
+  /// Returns a number that changes whenever memory of the linearisation moves.
+  std::uint64_t revision() const { return revision_; }
+
  private:
   /// Linearises points that are drawn together.
   void linearize_together(std::span<const Neighbourhood> points, std::vector<NormalEquations>& out);
-  /// Returns how many points can be linearised together.
-  std::size_t most_together(std::size_t points);
-  void reserve(std::int64_t points, int columns);
   /// Takes for upload the drawn states of all points, then the states of each.
   void take(std::span<const Neighbourhood> points,
             const std::vector<std::vector<Eigen::Index>>& moved, int columns);
-  /// Enqueues all work for points that were taken. If it throws, nothing goes on beside the stream.
-  void enqueue(int points, int columns);
-  void enqueue_all(int points, int columns);
-  void enqueue_rows(int points, int columns);
-  void enqueue_differences(int points, int columns);
+  /// Returns the layout of points that were taken.
+  LinearizedStates taken(int points, int columns) const;
+  void enqueue_all(const LinearizedStates& at);
+  void enqueue_rows(const LinearizedStates& at);
+  void enqueue_differences(const LinearizedStates& at);
+  void download(const LinearizedStates& at);
   /// Makes room for so many objects. Counts the revision if memory moves, or would.
   template <class Buffer>
   void grow(Buffer& buffer, std::int64_t size) {

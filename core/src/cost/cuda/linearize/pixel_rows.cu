@@ -29,6 +29,11 @@ constexpr float kSameDepth = 1e-5f;
 
 __device__ int sets_of(const PixelRowsJob& job) { return job.pair ? 1 : job.view_count; }
 
+/// Returns whether a point's sums stay as they are; call it after wait_for_previous().
+__device__ bool rests(const PixelRowsJob& job, int point) {
+  return job.rests && __ldcg(job.rests + point) != 0;
+}
+
 /// Returns the records of a point and set of vertices: for each vertex, x, y, 1/z and x in the
 /// second view of a pair, of all states.
 __device__ float4* records_of(const PixelRowsJob& job, const SceneLayout& scene, int point,
@@ -65,6 +70,7 @@ __global__ void __launch_bounds__(kPoseThreads)
   let_next_start();
   const int thread = static_cast<int>(threadIdx.x), state = static_cast<int>(blockIdx.x);
   const int point = static_cast<int>(blockIdx.y), pitch = job.columns + 1;
+  if (rests(job, point)) return;
   copy_to_shared(scene.models, scene.model_count, at.model_layouts);
   copy_to_shared(scene.bones, scene.bone_count, at.bone_layouts);
   copy_to_shared(scene.motions, scene.motion_count, at.motions);
@@ -126,10 +132,10 @@ __global__ void __launch_bounds__(kTriangleThreads)
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const int warp = static_cast<int>((blockIdx.x * kTriangleThreads + threadIdx.x) / kWarp);
   const int view = warp / scene.triangle_count, number = warp % scene.triangle_count;
-  if (view >= job.view_count) return;
+  const int point = static_cast<int>(blockIdx.y);
+  if (view >= job.view_count || rests(job, point)) return;
   const PackedTriangle packed = scene.triangles[number];
   const TriangleCorners corners(packed);
-  const int point = static_cast<int>(blockIdx.y);
   const Records records(job, scene, point, view);
   const float3 a = records(corners.a, 0), b = records(corners.b, 0), c = records(corners.c, 0);
   if (!(least(a.z, b.z, c.z) > 0.0f)) return;
@@ -338,6 +344,7 @@ __global__ void __launch_bounds__(kRowThreads)
   for (; second >= sides - first; ++first) second -= sides - first;
   second += first;
   const int point = static_cast<int>(blockIdx.z);
+  if (rests(job, point)) return;
   RowSums sums(scene, job, point, first, second);
   const float root_blur = sqrtf(__ldcg(job.blurs + point));
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -376,6 +383,8 @@ __global__ void __launch_bounds__(kJoinWarps* kWarp)
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const int warp = static_cast<int>(threadIdx.x) / kWarp;
   const std::int64_t square = blockIdx.x / kRowSide;
+  const int sides = (job.columns + kRowSide) / kRowSide;
+  if (rests(job, static_cast<int>(square / (sides * (sides + 1) / 2)))) return;
   const int number = static_cast<int>(blockIdx.x % kRowSide) * kRowSide + lane;
   const float* parts = job.parts + square * blocks * kRowSquare + number;
   double sum = 0;

@@ -44,6 +44,7 @@ struct PixelRowsJob {
   std::uint32_t* owners;     ///< scratch: the triangle that is drawn at each pixel
   float* parts;              ///< scratch: row_numbers(D) x row_blocks()
   double* sums;              ///< row_numbers(D): products of the columns, the last one is r
+  const std::int32_t* rests;  ///< 1: not 0 if its sums stay as they are; null: none does
 };
 
 /// Enqueues the posing of all states into `records`, before enqueue_owners(). It reads only the
