@@ -165,10 +165,8 @@ void RigWatch::look_at_turn(int frame, const CameraTurn& turn) {
   notes_.push_back(fmt::format(
       "frame {}: judged by the outlines of models in each view, the second camera is turned at "
       "least {:.2f} degrees {} against the calibration ({:.1f} px). A baseline that is {:.1f} % "
-      "too "
-      "{}, or models that much too {}, would look alike. {}. Check the models' sizes, and "
-      "calibrate "
-      "again",
+      "too {}, or models that much too {}, would look alike. {}. Check the models' sizes, and "
+      "calibrate again",
       frame, std::abs(median) * 180 / std::numbers::pi, median > 0 ? "inwards" : "outwards",
       std::abs(median) * focal, share, median > 0 ? "long" : "short",
       median > 0 ? "small" : "large",
