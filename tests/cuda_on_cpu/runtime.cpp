@@ -105,6 +105,13 @@ class Memory {
     if (type == cudaMemoryTypeDevice) used_ += bytes;
     return result(cudaSuccess);
   }
+  /// Takes memory of the caller for page-locked, for good.
+  cudaError_t lock(void* memory, std::size_t bytes) {
+    if (of_kernel != cudaSuccess) return result(of_kernel);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    blocks_[memory] = {bytes, cudaMemoryTypeHost};
+    return result(cudaSuccess);
+  }
   cudaError_t free(void* memory, cudaMemoryType type) {
     if (memory == nullptr) return result(cudaSuccess);
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -245,6 +252,7 @@ cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int dev
   }
   return result(cudaSuccess);
 }
+cudaError_t cudaDeviceGetPCIBusId(char*, int, int) { return cudaErrorNotSupported; }
 cudaError_t cudaDeviceSynchronize() { return result(cudaSuccess); }
 
 cudaError_t cudaMalloc(void** to, std::size_t bytes) {
@@ -253,6 +261,9 @@ cudaError_t cudaMalloc(void** to, std::size_t bytes) {
 cudaError_t cudaFree(void* at) { return memory().free(at, cudaMemoryTypeDevice); }
 cudaError_t cudaHostAlloc(void** to, std::size_t bytes, unsigned) {
   return memory().reserve(to, bytes, cudaMemoryTypeHost);
+}
+cudaError_t cudaHostRegister(void* at, std::size_t bytes, unsigned) {
+  return memory().lock(at, bytes);
 }
 cudaError_t cudaFreeHost(void* at) { return memory().free(at, cudaMemoryTypeHost); }
 cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total) {

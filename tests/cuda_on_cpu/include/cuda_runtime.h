@@ -48,6 +48,7 @@ cudaError_t cudaGetDevice(int* device);
 cudaError_t cudaSetDevice(int device);
 cudaError_t cudaGetDeviceProperties(cudaDeviceProp* properties, int device);
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
+cudaError_t cudaDeviceGetPCIBusId(char* address, int size, int device);
 cudaError_t cudaDeviceSynchronize();
 
 enum cudaMemcpyKind {
@@ -65,6 +66,7 @@ struct cudaPointerAttributes {
   cudaMemoryType type;
 };
 inline constexpr unsigned cudaHostAllocPortable = 1;
+inline constexpr unsigned cudaHostRegisterPortable = 1;
 using cudaStream_t = struct CUstream_st*;
 cudaError_t cudaMalloc(void** memory, std::size_t bytes);
 template <class T>
@@ -77,6 +79,7 @@ template <class T>
 cudaError_t cudaMallocHost(T** memory, std::size_t bytes) {
   return cudaHostAlloc(reinterpret_cast<void**>(memory), bytes, 0);
 }
+cudaError_t cudaHostRegister(void* memory, std::size_t bytes, unsigned flags);
 cudaError_t cudaFreeHost(void* memory);
 cudaError_t cudaMemGetInfo(std::size_t* free, std::size_t* total);
 cudaError_t cudaPointerGetAttributes(cudaPointerAttributes* attributes, const void* memory);
