@@ -86,7 +86,8 @@ struct TileMaker::Impl {
 };
 
 /// Returns the side of the tiles around the posed scene. A tile that several rigid models share is
-/// larger, so that none is shown too small to be followed, but not finer than the pictures.
+/// larger, so that the largest is not shown too small to be followed, but not finer than the
+/// pictures.
 int TileMaker::Impl::tile_size() const {
   constexpr double kMost = 2;  // times the size of the settings: four times its time
   constexpr int kStep = 32;    // pixels, so that few frames change it

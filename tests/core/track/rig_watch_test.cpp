@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -142,6 +143,26 @@ TEST_F(RigWatchTest, TurnsThatAreFarAndSureAreSaidOnce) {
   EXPECT_FALSE(watch_.correction());
 }
 
+TEST_F(RigWatchTest, TurnsThatPutDepthWrongAreDoubtfulUnlessUndone) {
+  RigWatch undoing = RigWatch::make(pair_.cameras, true).value();
+  for (int i = 0; i < 24; ++i) {
+    watch_.look_at_turn(i, {0.01, 0.001, 0.9});
+    undoing.look_at_turn(i, {0.01, 0.001, 0.9});
+  }
+  EXPECT_TRUE(watch_.is_doubtful());
+  EXPECT_FALSE(undoing.is_doubtful());
+}
+
+TEST_F(RigWatchTest, TurnsThatNoCameraTakesAreNotFollowed) {
+  RigWatch watch = RigWatch::make(pair_.cameras, true).value();
+  for (int i = 0; i < 500; ++i) watch.look_at_turn(i, {0.02, 0.001, 0.5});
+  const double moved = std::abs((*watch.correction())(0, 2)) / pair_.cameras[1].fx;
+  EXPECT_LT(moved, 0.1);
+  const auto unknown = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 500; i < 600; ++i) watch.look_at_turn(i, {unknown, 0.001, 0.5});
+  EXPECT_TRUE(std::isfinite((*watch.correction())(0, 2)));
+}
+
 TEST_F(RigWatchTest, TurnsAreUndoneOnRequest) {
   constexpr double kTurn = 0.02;
   const Camera& camera = pair_.cameras[1];
@@ -156,7 +177,7 @@ TEST_F(RigWatchTest, TurnsAreUndoneOnRequest) {
   };
   for (int i = 0; i < 200; ++i)  // outlines show a part of what is left
     watch.look_at_turn(i, {0.7 * (kTurn - undone()), 0.001, 0.5});
-  EXPECT_THAT(watch.take_notes(), ElementsAre(HasSubstr("Its pictures are moved to fit")));
+  EXPECT_THAT(watch.take_notes(), ElementsAre(HasSubstr("pictures are moved to fit")));
   EXPECT_NEAR(undone(), kTurn, 0.01 * kTurn);
   Frame now = frame(0);
   const cv::Mat right = now.views[1].color.clone();

@@ -136,7 +136,7 @@ TEST(RigidObjects, AreTwiceAsExactOnceATurnOfACameraIsUndone) {
   const std::vector<BoxFrame> frames = track_box("rigid", kPair, kNothing, &wrong);
   const double before = mean_error({frames.begin(), frames.begin() + 20});
   EXPECT_LT(mean_error({frames.end() - 20, frames.end()}), before / 2);
-  EXPECT_THAT(wrong.notes, ElementsAre(HasSubstr("Its pictures are moved to fit")));
+  EXPECT_THAT(wrong.notes, ElementsAre(HasSubstr("pictures are moved to fit")));
 }
 
 TEST(RigidObjects, AreNeitherLostNorTurnedBehindABoard) {

@@ -43,16 +43,16 @@ class HYPOTRACK_API DeviceCost {
   /// of particles. Returns false if it enqueued nothing.
   virtual bool enqueue_search(const SwarmSearch& search);
 
+  /// Returns a number that stays the same, over frames, as long as a graph captured from enqueue()
+  /// remains valid.
+  virtual std::uint64_t revision() const = 0;
+
   /// Searches by damped least squares (DampedSteps), all in step, from points of `dimension`
   /// numbers. Steps stay on the GPU. Returns false, and did nothing, where the terms or the sizes
   /// do not allow it. Asks `ends()` now and then; true ends all searches. Throws Error as
   /// CostFunction::evaluate().
   virtual bool descend(const DampedSettings& settings, std::int32_t dimension,
                        std::span<Descent> searches, const std::function<bool()>& ends);
-
-  /// Returns a number that stays the same, over frames, as long as a graph captured from enqueue()
-  /// remains valid.
-  virtual std::uint64_t revision() const = 0;
 };
 
 }  // namespace hypotrack::cuda

@@ -89,7 +89,9 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   }
   bool descend(const DampedSettings& settings, std::int32_t dimension, std::span<Descent> searches,
                const std::function<bool()>& ends) override {
-    if (!sum_of_squares_ || !descent_.can_run(settings, dimension, searches.size())) return false;
+    if (!sum_of_squares_ ||
+        !descent_.can_run(settings, dimension, searches.size(), rotation_vectors_))
+      return false;
     const ProfiledPart part("steps on the GPU");
     descent_.run(settings, dimension, searches, rotation_vectors_ ? prior_.data() : nullptr, ends);
     return true;

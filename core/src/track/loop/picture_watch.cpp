@@ -1,6 +1,11 @@
 #include "track/loop/picture_watch.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include "base/profile.hpp"
+#include "hypotrack/api/error.hpp"
+#include "plugin/plugin_call.hpp"
 #include "track/faults/picture_checks.hpp"
 
 namespace hypotrack::internal {
@@ -8,12 +13,20 @@ namespace hypotrack::internal {
 PictureWatch::PictureWatch(const std::vector<Camera>& cameras,
                            const std::vector<ObjectiveTerm>& terms, bool is_on,
                            bool corrects_turn) {
-  if (!is_on) return;
-  checks_.emplace(cameras, joined_use(terms).depth);
-  rig_ = RigWatch::make(cameras, corrects_turn);
-  for (const ObjectiveTerm& term : terms)
-    if (const auto* views = dynamic_cast<const CameraTurnTerm*>(term.objective.get()))
-      views_ = views;
+  if (is_on) {
+    checks_.emplace(cameras, joined_use(terms).depth);
+    rig_ = RigWatch::make(cameras, corrects_turn);
+    for (const ObjectiveTerm& term : terms)
+      if (const auto* views = dynamic_cast<const CameraTurnTerm*>(term.objective.get()); !views_)
+        views_ = views, turning_ = term.objective.get();
+  }
+  const bool is_fisheye = std::ranges::any_of(cameras, [](const Camera& camera) {
+    return camera.distortion_model == DistortionModel::fisheye;
+  });
+  if (corrects_turn && (!rig_ || !views_ || is_fisheye))
+    throw ConfigError(
+        "status.correct_turn takes two nearly parallel cameras without fisheye lenses, rigid "
+        "models and the objective `contour`; leave it off");
 }
 
 ViewFault PictureWatch::check(const Frame& frame) {
@@ -59,7 +72,8 @@ bool PictureWatch::doubts_depth(int frame, bool is_searched) {
 
 void PictureWatch::compare_views(int frame, const Eigen::VectorXd& state) {
   if (!rig_ || !views_) return;
-  if (const auto turn = views_->camera_turn({state.data(), static_cast<std::size_t>(state.size())}))
+  const std::span all(state.data(), static_cast<std::size_t>(state.size()));
+  if (const auto turn = detail::call_plugin(*turning_, [&] { return views_->camera_turn(all); }))
     rig_->look_at_turn(frame, *turn);
 }
 

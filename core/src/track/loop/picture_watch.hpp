@@ -42,8 +42,8 @@ class PictureWatch {
   /// Takes the number of a frame, and whether its search is done. Returns whether depth may be
   /// wrong, for the cameras do not fit their calibration.
   bool doubts_depth(int frame, bool is_searched);
-  /// Lets what the terms prepared for a frame in which all models were tracked, perhaps not surely,
-  /// tell of the cameras. Takes the models' state. Call it after doubts_depth().
+  /// Compares the views of a frame in which all models were tracked, perhaps not surely, by the
+  /// outlines that a term prepared. Takes the models' state. Call it after doubts_depth().
   void compare_views(int frame, const Eigen::VectorXd& state);
   /// Returns what the pictures show to be wrong with the cameras, since the last call.
   std::vector<std::string> take_notes();
@@ -65,6 +65,7 @@ class PictureWatch {
   SteadyBrightness brightness_;
   std::optional<RigWatch> rig_;            ///< of a pair of views that are compared
   const CameraTurnTerm* views_ = nullptr;  ///< judges each view by itself; null: no term does
+  const Objective* turning_ = nullptr;     ///< that term
   std::optional<cv::Matx33d> correction_;  ///< RigWatch::correction() as of the last check()
   std::optional<int> searched_;            ///< frame whose learned colours it has not taken
   std::optional<std::pair<int, ColorMap>> colors_;  ///< of such a frame, to be looked at

@@ -174,9 +174,7 @@ double foreground_correlation(const ReducedView& a, const Patch& at, const Reduc
 
 PlaceFinder::PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest,
                          double farthest)
-    : cameras_(cameras),
-      radius_(radius),
-      inverse_step_((1 / nearest - 1 / farthest) / (kDepths - 1.0)) {
+    : cameras_(cameras), radius_(radius), least_inverse_(1 / farthest), most_inverse_(1 / nearest) {
   if (cameras.size() < 2) return;
   for (std::size_t i = 0; i < 2; ++i)
     reductions_[i] = std::max(1, static_cast<int>(std::lround(cameras[i].width / double{kWidth})));
@@ -277,12 +275,12 @@ Eigen::Vector3d PlaceFinder::at_best_depth(const Views& views,
   constexpr int kEachWay = 12;
   const Camera& first = cameras_[0];
   const Eigen::Vector3d ray = first.camera_from_world * center;
-  const double step = inverse_step_ / 6;
+  const double step = (most_inverse_ - least_inverse_) / (kDepths - 1.0) / 6;
   Eigen::Vector3d best = center;
   double most = 0;
   for (int k = -kEachWay; k <= kEachWay; ++k) {
     const double inverse = 1 / ray.z() + k * step;
-    if (!(inverse > 0)) continue;
+    if (!(inverse >= least_inverse_ && inverse <= most_inverse_)) continue;
     const Eigen::Vector3d there =
         first.camera_from_world.inverse() * Eigen::Vector3d(ray / (ray.z() * inverse));
     Patch a, b;

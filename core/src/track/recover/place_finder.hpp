@@ -76,7 +76,7 @@ class PlaceFinder {
 
   std::vector<Camera> cameras_;
   double radius_;
-  double inverse_step_;  ///< step of 1/z between the planes of the sweep
+  double least_inverse_, most_inverse_;  ///< of the depths that are swept, 1/metres
   std::vector<Point> points_;
   int reductions_[2] = {1, 1};
 };

@@ -36,7 +36,8 @@ double brightness_of(const ColorMap& colors) {
   return sum / 3;
 }
 
-/// Returns the median of angles, and what three quarters of them exceed on its side of zero.
+/// Returns the median of angles, and their quartile on its side of zero: three quarters of them are
+/// farther out. The quartile is negative if they are on the other side.
 std::pair<double, double> median_and_quartile(std::vector<double> angles) {
   std::ranges::sort(angles);
   const std::size_t quarter = angles.size() / 4;
@@ -58,7 +59,8 @@ RigWatch::RigWatch(RectifiedPair pair, bool corrects_turn)
 
 void RigWatch::look(const Frame& frame) {
   constexpr std::size_t kRecent = 15;  // frames
-  if (!is_pair(frame)) return;
+  is_moved_ = is_pair(frame);
+  if (!is_moved_) return;
   const int number = frames_++;
   const double since = number > 0 ? frame.time - time_ : 0;
   time_ = frame.time;
@@ -148,30 +150,36 @@ void RigWatch::look_at_colors(int frame, const ColorMap& colors) {
 
 void RigWatch::look_at_turn(int frame, const CameraTurn& turn) {
   constexpr std::ptrdiff_t kEnough = 12;  // frames
+  constexpr double kMost = 0.04;          // radians: more is no slip of a camera
+  constexpr double kWrong = 0.02;         // metres
   const double focal = pair_.scale() * pair_.focal();
-  if (!(turn.sigma * focal < kFar)) return;
+  const bool is_sharp = turn.sigma > 0 && turn.sigma * focal < kFar && std::isfinite(turn.angle);
+  if (!is_moved_ || !is_sharp) return;
   turns_.push_back(turn.angle);
   if (std::ssize(turns_) < 2 * kEnough) return;
   // Colours of the outlines are learned in the first frames, where they are wrong with the start.
   const auto [before, before_sure] = median_and_quartile({turns_.begin(), turns_.end() - kEnough});
   const auto [median, sure] = median_and_quartile({turns_.end() - kEnough, turns_.end()});
   turns_.erase(turns_.begin(), turns_.end() - kEnough);
-  const bool lasts = std::min(before_sure, sure) * focal > kFar && (before > 0) == (median > 0);
-  if (!turn_said_ && !lasts) return;
+  const double least = turn_said_ ? 0 : kFar;
+  const bool lasts = std::min(before_sure, sure) * focal > least && (before > 0) == (median > 0);
+  if (!lasts) return;
   turns_.clear();
-  if (corrects_turn_) turn_ += median;
+  if (corrects_turn_) turn_ = std::clamp(turn_ + median, -kMost, kMost);
+  const double share = pair_.focal() * std::abs(median) / pair_.disparity(turn.distance);
+  is_turned_ = !corrects_turn_ && share * turn.distance > kWrong;
   if (std::exchange(turn_said_, true)) return;
-  const double share = 100 * pair_.focal() * std::abs(median) / pair_.disparity(turn.distance);
   notes_.push_back(fmt::format(
-      "frame {}: judged by the outlines of models in each view, the second camera is turned at "
-      "least {:.2f} degrees {} against the calibration ({:.1f} px). A baseline that is {:.1f} % "
-      "too {}, or models that much too {}, would look alike. {}. Check the models' sizes, and "
+      "frame {}: the outlines of models in both views disagree by at least {:.1f} px. Either the "
+      "second camera is turned by {:.2f} degrees {} against the calibration, or its baseline is "
+      "{:.1f} % too {}, or the models are that much too {}. {}. Check the models' sizes, and "
       "calibrate again",
-      frame, std::abs(median) * 180 / std::numbers::pi, median > 0 ? "inwards" : "outwards",
-      std::abs(median) * focal, share, median > 0 ? "long" : "short",
+      frame, std::abs(median) * focal, std::abs(median) * 180 / std::numbers::pi,
+      median > 0 ? "inwards" : "outwards", 100 * share, median > 0 ? "long" : "short",
       median > 0 ? "small" : "large",
-      corrects_turn_ ? "Its pictures are moved to fit"
-                     : "Depth is wrong; `status.correct_turn: true` moves its pictures to fit"));
+      corrects_turn_
+          ? "The second view's pictures are moved to fit"
+          : "If it is the camera, `status.correct_turn: true` moves its pictures to fit"));
 }
 
 std::optional<cv::Matx33d> RigWatch::correction() const {

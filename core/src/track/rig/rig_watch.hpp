@@ -45,7 +45,7 @@ class RigWatch {
   /// has them; nothing if they are there.
   std::optional<cv::Matx33d> correction() const;
   /// Returns whether depth may be wrong in spite of that.
-  bool is_doubtful() const { return is_late_ || misaligned_ > kMostRows; }
+  bool is_doubtful() const { return is_late_ || misaligned_ > kMostRows || is_turned_; }
 
   /// Returns what the user should know, each thing once, since the last call.
   std::vector<std::string> take_notes() { return std::exchange(notes_, {}); }
@@ -74,7 +74,9 @@ class RigWatch {
   double brightness_ = 0;  ///< of the first view against the second, after those
   int other_frames_ = 0;   ///< frames in a row with another brightness
   bool brightness_said_ = false;
+  bool is_moved_ = true;  ///< corrected() applies to the last frame
   bool corrects_turn_, turn_said_ = false;
+  bool is_turned_ = false;     ///< by so much that depth is wrong, and not corrected
   std::vector<double> turns_;  ///< radians, of the frames since the last conclusion
   double turn_ = 0;            ///< radians that correction() undoes
   std::vector<std::string> notes_;

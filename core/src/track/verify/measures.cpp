@@ -40,8 +40,8 @@ struct Products {
   }
 };
 
-/// Computes the correlation around the means of all points.
-double plain_correlation(const Pairs& pairs) {
+/// Computes the correlation around the means of all points. Contrast below `faint` says nothing.
+double plain_correlation(const Pairs& pairs, double faint) {
   const cv::Scalar a = cv::mean(pairs.first, pairs.mask), b = cv::mean(pairs.other, pairs.mask);
   Products sums;
   for (int y = 0; y < pairs.mask.rows; ++y)
@@ -55,7 +55,7 @@ double plain_correlation(const Pairs& pairs) {
         sums.other += q * q;
       }
     }
-  return sums.correlation(kFaintContrast);
+  return sums.correlation(faint);
 }
 
 /// Four numbers at every point of a grid, with a border of zeros.
@@ -154,7 +154,7 @@ struct Texture {
   double correlation = 0, agreement = 0, contrast = 0, worst_agreement = 0;
 };
 
-Texture texture(const Pairs& pairs) {
+Texture texture(const Pairs& pairs, float faint) {
   Quads a = without_local_mean(pairs.first, pairs.mask);
   Quads b = without_local_mean(pairs.other, pairs.mask);
   Quads products(pairs.mask.size());  // a b, a a, b b at every point
@@ -178,14 +178,14 @@ Texture texture(const Pairs& pairs) {
     for (int x = 0; x < pairs.mask.cols; ++x) {
       if (!pairs.mask(y, x)) continue;
       const auto p = local(x, y);
-      const float noise = kFaintContrast * kFaintContrast * a(x, y)[3];
+      const float noise = faint * faint * a(x, y)[3];
       const bool agrees = p[0] > 0.5f * std::sqrt((p[1] + noise) * (p[2] + noise));
       agree += agrees;
       pieces.add(x, y, agrees);
     }
   const double variance = std::sqrt(sums.first * sums.other) / (3 * sums.count);
   const double agreement = agree / sums.count;
-  return {sums.correlation(kFaintContrast), agreement, log10_of(std::sqrt(variance)),
+  return {sums.correlation(double{faint}), agreement, log10_of(std::sqrt(variance)),
           pieces.lowest(agreement)};
 }
 
@@ -318,8 +318,11 @@ double brightening(const SurfaceSamples& samples) {
 /// Returns samples with colours multiplied by a factor.
 SurfaceSamples brightened(const SurfaceSamples& samples, double factor) {
   SurfaceSamples out = samples;
-  for (SampledView& view : out.views) view.color = cv::Mat3f(view.color * factor);
-  out.other = cv::Mat3f(out.other * factor);
+  const auto brighter = [&](const cv::Mat3f& color) {
+    return cv::Mat3f(cv::min(color * factor, 255.0));
+  };
+  for (SampledView& view : out.views) view.color = brighter(view.color);
+  out.other = brighter(out.other);
   return out;
 }
 
@@ -334,6 +337,7 @@ Measures measure(const SurfaceSamples& sampled, const ForegroundColors& colors,
   const double factor = brightening(sampled);
   const SurfaceSamples bright = factor > 1 ? brightened(sampled, factor) : SurfaceSamples();
   const SurfaceSamples& samples = factor > 1 ? bright : sampled;
+  const float faint = kFaintContrast * static_cast<float>(factor);
   const SampledView& first = samples.views[0];
   cv::Mat1b core;
   cv::erode(first.inside, core, cv::Mat());
@@ -347,16 +351,17 @@ Measures measure(const SurfaceSamples& sampled, const ForegroundColors& colors,
   Edges left, right;
   Probability on, off;
   std::array<double, 2> apart{};
-  run_together({[&] { surface = texture(inside); }, [&] { beside = texture(ring); },
-                [&] { out.likeness = appearance.likeness(sampled); },
-                [&] { on = probability(sampled, colors, &SampledView::inside); },
-                [&] { off = probability(sampled, colors, &SampledView::ring); },
-                [&] { left = edges(samples.views[0]); }, [&] { right = edges(samples.views[1]); },
-                [&] { apart[0] = separation(samples.views[0]); },
-                [&] { apart[1] = separation(samples.views[1]); },
-                [&] { out.values[Measures::kCorrelation] = plain_correlation(inside); },
-                [&] { out.values[Measures::kDifference] = median_difference(inside); },
-                [&] { out.values[Measures::kRingDifference] = median_difference(ring); }});
+  run_together(
+      {[&] { surface = texture(inside, faint); }, [&] { beside = texture(ring, faint); },
+       [&] { out.likeness = appearance.likeness(sampled); },
+       [&] { on = probability(sampled, colors, &SampledView::inside); },
+       [&] { off = probability(sampled, colors, &SampledView::ring); },
+       [&] { left = edges(samples.views[0]); }, [&] { right = edges(samples.views[1]); },
+       [&] { apart[0] = separation(samples.views[0]); },
+       [&] { apart[1] = separation(samples.views[1]); },
+       [&] { out.values[Measures::kCorrelation] = plain_correlation(inside, double{faint}); },
+       [&] { out.values[Measures::kDifference] = median_difference(inside); },
+       [&] { out.values[Measures::kRingDifference] = median_difference(ring); }});
   out.values[Measures::kTexture] = surface.correlation;
   out.values[Measures::kAgreement] = surface.agreement;
   out.values[Measures::kContrast] = surface.contrast;

@@ -44,6 +44,7 @@ inline constexpr cuda_on_cpu::Vector<&cuda_on_cpu::ThreadPlace::grid_size> gridD
 inline void __syncthreads() { cuda_on_cpu::meet_block(false); }
 inline int __syncthreads_count(int predicate) { return cuda_on_cpu::meet_block(predicate != 0); }
 inline void __syncwarp() { cuda_on_cpu::meet_warp(); }
+inline void __threadfence_system() {}
 inline void __threadfence() {}  // slots are filled and read in order: instructions.cuh
 [[noreturn]] inline void __trap() { cuda_on_cpu::trap(); }
 

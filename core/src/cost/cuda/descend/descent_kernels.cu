@@ -188,15 +188,23 @@ __device__ void place_neighbours(const Search& search, const DampedSteps& steps)
   if (thread == d + 1) write_state(job, moved, search.centre(), 0, 1);
 }
 
+/// Writes the answer so far, with the whole block. The host may read it meanwhile: `ended` comes
+/// last.
 __device__ void write_answer(const Search& search, bool refused) {
   const int thread = static_cast<int>(threadIdx.x);
+  const DescentState& state = search.state();
+  DescentAnswer& answer = search.job.answers[search.index];
   if (thread < search.job.dimension)
     search.job.answer_points[search.index * search.job.dimension + thread] = search.best()[thread];
-  if (thread > 0) return;
-  const DescentState& state = search.state();
-  const bool ended = state.steps.wants == DampedSteps::Wants::nothing;
-  search.job.answers[search.index] = {state.best_cost, state.steps.evaluations, ended ? 1 : 0,
-                                      refused ? 1 : 0};
+  if (thread == 0) {
+    answer.cost = state.best_cost;
+    answer.evaluations = state.steps.evaluations;
+    answer.refused = refused ? 1 : 0;
+  }
+  __threadfence_system();
+  __syncthreads();
+  if (thread > 0 || state.steps.wants != DampedSteps::Wants::nothing) return;
+  *static_cast<volatile std::int32_t*>(&answer.ended) = 1;
 }
 
 __global__ void __launch_bounds__(kThreads) take_costs(const __grid_constant__ DescentJob job) {

@@ -1,6 +1,7 @@
 #include "cost/cuda/descend/device_descent.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "base/profile.hpp"
 #include "cost/backends.hpp"
@@ -22,13 +23,12 @@ void StreamEvent::wait() const {
 }
 
 bool DeviceDescent::can_run(const DampedSettings& settings, std::int32_t dimension,
-                            std::size_t searches) {
+                            std::size_t searches, bool rotation_vectors) {
   const SceneLayout& scene = frame_.scene();
   if (dimension > kMostDescentDimensions || settings.trials > kMostTrials) return false;
   if (!frame_.has_slopes() || frame_.draws_differences()) return false;
   // Otherwise some models rest, and points lack their numbers.
-  const bool moves_all =
-      dimension == scene.dimension || dimension == scene.dimension - scene.model_count;
+  const bool moves_all = dimension == scene.dimension - (rotation_vectors ? scene.model_count : 0);
   return moves_all && (searches == 1 || searches <= linearizer_.most_together(searches));
 }
 
@@ -82,10 +82,11 @@ void DeviceDescent::run(const DampedSettings& settings, std::int32_t dimension,
   for (std::size_t step = 0;; ++step) {
     enqueue_step();
     step_ends_[step % 2].record(frame_.stream());
-    if (step == 0) continue;
-    step_ends_[(step - 1) % 2].wait();
-    if (all_ended()) break;
-    check_stop();
+    if (step > 0) {
+      step_ends_[(step - 1) % 2].wait();
+      if (all_ended()) break;
+      check_stop();
+    }
     if (ends()) {
       wait_for(frame_.stream(), "a search by least squares");
       break;
@@ -101,7 +102,8 @@ void DeviceDescent::enqueue_step() {
 
 void DeviceDescent::enqueue_evaluation() {
   const auto arguments = [&] {
-    const auto shape = static_cast<std::uint64_t>(std::int64_t{job_.searches} << 32 | job_.trials);
+    const auto shape = static_cast<std::uint64_t>(std::int64_t{job_.searches} << 32 |
+                                                  job_.trials << 16 | job_.dimension);
     return RepeatedWork::Arguments{shape, frame_.revision(), revision_, job_.prior ? 1u : 0u};
   };
   if (evaluations_.launch(arguments(), frame_.stream())) return;
@@ -138,7 +140,11 @@ void DeviceDescent::enqueue_linearization() {
 
 bool DeviceDescent::all_ended() const {
   const std::span answers(answers_.data(), static_cast<std::size_t>(job_.searches));
-  return std::ranges::all_of(answers, [](const DescentAnswer& one) { return one.ended != 0; });
+  const bool ended = std::ranges::all_of(answers, [](const DescentAnswer& one) {
+    return *static_cast<const volatile std::int32_t*>(&one.ended) != 0;
+  });
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return ended;
 }
 
 void DeviceDescent::read(std::span<Descent> searches) const {

@@ -39,8 +39,9 @@ class DeviceDescent {
   DeviceDescent(FrameOnDevice& frame, DeviceLinearizer& linearizer)
       : frame_(frame), linearizer_(linearizer) {}
 
-  /// Returns whether run() can make these searches.
-  bool can_run(const DampedSettings& settings, std::int32_t dimension, std::size_t searches);
+  /// Returns whether run() can make these searches. `rotation_vectors`: there is a prior.
+  bool can_run(const DampedSettings& settings, std::int32_t dimension, std::size_t searches,
+               bool rotation_vectors);
   /// Searches as DeviceCost::descend(). `prior` is a state in device memory that rotation vectors
   /// apply to, or null.
   void run(const DampedSettings& settings, std::int32_t dimension, std::span<Descent> searches,
