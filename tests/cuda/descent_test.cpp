@@ -158,8 +158,8 @@ TEST_F(DescentOnDevice, LeavesToTheHostWhatItCannotDo) {
     std::vector<cuda::Descent> searches_of_one{{region.start.data(), region.lower.data(),
                                                 region.upper.data(), region.spread.data(),
                                                 point.data()}};
-    return searches.cost().device(&prior)->descend(settings, dimension, searches_of_one,
-                                                   [] { return false; });
+    auto& descent = dynamic_cast<cuda::DescentCost&>(*searches.cost().device(&prior));
+    return descent.descend(settings, dimension, searches_of_one, [] { return false; });
   };
   const int d = fit.space().dimension();
   EXPECT_TRUE(descends(fit, {.evaluations = 20}, d));

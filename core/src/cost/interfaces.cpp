@@ -26,10 +26,7 @@ void cuda::DeviceObjective::enqueue_slopes(const SceneLayout&, const DrawnBatch&
 }
 cuda::DeviceCost::~DeviceCost() = default;
 bool cuda::DeviceCost::enqueue_search(const SwarmSearch&) { return false; }
-bool cuda::DeviceCost::descend(const DampedSettings&, std::int32_t, std::span<Descent>,
-                               const std::function<bool()>&) {
-  return false;
-}
+cuda::DescentCost::~DescentCost() = default;
 ResidualDifferences::~ResidualDifferences() = default;
 ResidualCost::~ResidualCost() = default;
 NormalEquations ResidualCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>&,

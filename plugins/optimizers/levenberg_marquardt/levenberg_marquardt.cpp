@@ -71,8 +71,8 @@ std::vector<OptimizerResult> descend_on_device(CostFunction& cost,
                                                std::span<const SearchRegion> regions,
                                                const DampedSettings& settings,
                                                const Deadline& deadline) {
-  cuda::DeviceCost* device = cost.device();
-  if (!device) return {};
+  auto* const descent = dynamic_cast<cuda::DescentCost*>(cost.device());
+  if (!descent) return {};
   std::vector<OptimizerResult> out(regions.size());
   std::vector<cuda::Descent> searches;
   for (std::size_t k = 0; k < regions.size(); ++k) {
@@ -81,7 +81,7 @@ std::vector<OptimizerResult> descend_on_device(CostFunction& cost,
     searches.push_back({region.start.data(), region.lower.data(), region.upper.data(),
                         region.spread.data(), out[k].point.data()});
   }
-  if (!device->descend(settings, cost.dimension(), searches, [&] { return deadline.passed(); }))
+  if (!descent->descend(settings, cost.dimension(), searches, [&] { return deadline.passed(); }))
     return {};
   for (std::size_t k = 0; k < regions.size(); ++k) {
     out[k].cost = searches[k].cost;

@@ -29,7 +29,7 @@ namespace hypotrack {
 /// With `starts` N, N searches begin at the region's start and at samples about it, each with an
 /// N-th of the evaluations; the best result counts.
 ///
-/// Steps with analytic Jacobians stay on the GPU if the cost can do that (DeviceCost::descend())
+/// Steps with analytic Jacobians stay on the GPU if the cost can do that (DescentCost::descend())
 /// and nothing watches the search: the same steps, up to rounding.
 ///
 /// It is a local refinement: pixel residuals do not guide it over errors of many pixels.

@@ -46,13 +46,19 @@ class HYPOTRACK_API DeviceCost {
   /// Returns a number that stays the same, over frames, as long as a graph captured from enqueue()
   /// remains valid.
   virtual std::uint64_t revision() const = 0;
+};
 
-  /// Searches by damped least squares (DampedSteps), all in step, from points of `dimension`
-  /// numbers. Steps stay on the GPU. Returns false, and did nothing, where the terms or the sizes
-  /// do not allow it. Asks `ends()` now and then; true ends all searches. Throws Error as
-  /// CostFunction::evaluate().
+/// A DeviceCost may also derive from this: searches by damped least squares whose steps stay on the
+/// GPU.
+class HYPOTRACK_API DescentCost {
+ public:
+  virtual ~DescentCost();
+
+  /// Searches by DampedSteps, all in step, from points of `dimension` numbers. Returns false, and
+  /// did nothing, where the terms or the sizes do not allow it. Asks `ends()` now and then; true
+  /// ends all searches. Throws Error as CostFunction::evaluate().
   virtual bool descend(const DampedSettings& settings, std::int32_t dimension,
-                       std::span<Descent> searches, const std::function<bool()>& ends);
+                       std::span<Descent> searches, const std::function<bool()>& ends) = 0;
 };
 
 }  // namespace hypotrack::cuda

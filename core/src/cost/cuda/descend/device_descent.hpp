@@ -42,7 +42,7 @@ class DeviceDescent {
   /// Returns whether run() can make these searches. `rotation_vectors`: there is a prior.
   bool can_run(const DampedSettings& settings, std::int32_t dimension, std::size_t searches,
                bool rotation_vectors);
-  /// Searches as DeviceCost::descend(). `prior` is a state in device memory that rotation vectors
+  /// Searches as DescentCost::descend(). `prior` is a state in device memory that rotation vectors
   /// apply to, or null.
   void run(const DampedSettings& settings, std::int32_t dimension, std::span<Descent> searches,
            const double* prior, const std::function<bool()>& ends);
