@@ -166,7 +166,8 @@ class MadeUp {
   /// Returns costs about a falling level: some trials help, others do not.
   Eigen::VectorXd costs(Eigen::Index count) {
     level_ *= 0.98;
-    return Eigen::VectorXd::NullaryExpr(count, [&] { return level_ * (1 + 0.03 * normal_(random_)); });
+    return Eigen::VectorXd::NullaryExpr(count,
+                                        [&] { return level_ * (1 + 0.03 * normal_(random_)); });
   }
   NormalEquations equations(const SearchRegion& region) {
     const Eigen::Index d = region.start.size();

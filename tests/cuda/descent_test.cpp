@@ -67,8 +67,7 @@ class Searches {
   OptimizerResult on_device(LevenbergMarquardt& optimizer, std::int64_t evaluations, int state) {
     const Eigen::VectorXd prior = test::scored_states(scene_).col(state);
     SearchCost cost(*cost_, space_, prior);
-    const OptimizerResult found =
-        optimizer.minimize(cost, space_.region(prior), {evaluations}, 1);
+    const OptimizerResult found = optimizer.minimize(cost, space_.region(prior), {evaluations}, 1);
     EXPECT_EQ(cost.tally().evaluations, 0) << "the host evaluated";
     return found;
   }
@@ -84,8 +83,7 @@ class Searches {
     LevenbergMarquardt optimizer(params);
     const OptimizerResult host = on_host(optimizer, evaluations, state);
     const OptimizerResult device = on_device(optimizer, evaluations, state);
-    const Eigen::VectorXd spread =
-        space_.region(test::scored_states(scene_).col(state)).spread;
+    const Eigen::VectorXd spread = space_.region(test::scored_states(scene_).col(state)).spread;
     EXPECT_EQ(device.evaluations, host.evaluations);
     EXPECT_NEAR(device.cost, host.cost, 1e-6 * std::abs(host.cost));
     EXPECT_LT((device.point - host.point).cwiseQuotient(spread).cwiseAbs().maxCoeff(), 1e-4);
@@ -176,8 +174,8 @@ TEST_F(DescentOnDevice, EndsWhenItIsTold) {
   Searches searches(hand, terms_with_slopes(hand));
   const Eigen::VectorXd prior = test::scored_states(hand).col(0);
   SearchCost cost(searches.cost(), searches.space(), prior);
-  const OptimizerResult found = LevenbergMarquardt(params).minimize(
-      cost, searches.space().region(prior), {1 << 20, 1e-4}, 1);
+  const OptimizerResult found =
+      LevenbergMarquardt(params).minimize(cost, searches.space().region(prior), {1 << 20, 1e-4}, 1);
   EXPECT_LT(found.evaluations, 100);
   EXPECT_TRUE(std::isfinite(found.cost));
 }

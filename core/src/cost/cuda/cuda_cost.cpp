@@ -26,10 +26,7 @@ namespace {
 
 /// Poses, draws and scores on the GPU: uploads hypotheses unless they are there already, downloads
 /// costs.
-class CudaCost final : public Cost,
-                       public StateResiduals,
-                       public DeviceCost,
-                       public DescentCost {
+class CudaCost final : public Cost, public StateResiduals, public DeviceCost, public DescentCost {
  public:
   CudaCost(const Scene& scene, std::vector<ObjectiveTerm> all, const EvaluateSettings& settings)
       : Cost(scene, std::move(all)),

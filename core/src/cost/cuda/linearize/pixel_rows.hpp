@@ -30,20 +30,20 @@ std::int64_t record_floats(const SceneLayout& scene, int sets, int columns);
 struct PixelRowsJob {
   const FrameLayout* frame;
   int view_count;
-  bool pair;                 ///< as in the frame
-  int pixels;                ///< of all views, one after the other
-  int terms;                 ///< number of terms over pixels
-  int columns;               ///< D
-  int points;                ///< points of linearisation; each has all of the following
-  const double* states;      ///< D + 1: the drawn one, then one per column
-  const float* per_step;     ///< D: 1 / the change of the column's parameter, 0 for none
-  const float* blurs;        ///< 1: pixels over which a passing silhouette changes a residual
-  const float* depth;        ///< `pixels`, of the drawn state
-  const PixelSlope* slopes;  ///< terms x pixels
-  float* records;            ///< scratch: record_floats()
-  std::uint32_t* owners;     ///< scratch: the triangle that is drawn at each pixel
-  float* parts;              ///< scratch: row_numbers(D) x row_blocks()
-  double* sums;              ///< row_numbers(D): products of the columns, the last one is r
+  bool pair;                  ///< as in the frame
+  int pixels;                 ///< of all views, one after the other
+  int terms;                  ///< number of terms over pixels
+  int columns;                ///< D
+  int points;                 ///< points of linearisation; each has all of the following
+  const double* states;       ///< D + 1: the drawn one, then one per column
+  const float* per_step;      ///< D: 1 / the change of the column's parameter, 0 for none
+  const float* blurs;         ///< 1: pixels over which a passing silhouette changes a residual
+  const float* depth;         ///< `pixels`, of the drawn state
+  const PixelSlope* slopes;   ///< terms x pixels
+  float* records;             ///< scratch: record_floats()
+  std::uint32_t* owners;      ///< scratch: the triangle that is drawn at each pixel
+  float* parts;               ///< scratch: row_numbers(D) x row_blocks()
+  double* sums;               ///< row_numbers(D): products of the columns, the last one is r
   const std::int32_t* rests;  ///< 1: not 0 if its sums stay as they are; null: none does
 };
 
