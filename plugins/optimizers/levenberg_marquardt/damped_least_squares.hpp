@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "hypotrack/plugin/damped_steps.hpp"
+#include "hypotrack/gpu/damped_steps.hpp"
 #include "hypotrack/plugin/linearization.hpp"
 #include "hypotrack/plugin/search.hpp"
 #include "levenberg_marquardt_params.hpp"

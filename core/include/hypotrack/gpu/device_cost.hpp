@@ -5,8 +5,8 @@
 #include <span>
 
 #include "hypotrack/api/export.hpp"
+#include "hypotrack/gpu/damped_steps.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
-#include "hypotrack/plugin/damped_steps.hpp"
 
 namespace hypotrack::cuda {
 

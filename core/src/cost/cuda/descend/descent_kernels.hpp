@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "base/exported.hpp"
+#include "hypotrack/gpu/damped_steps.hpp"
 #include "hypotrack/gpu/device_objective.hpp"
-#include "hypotrack/plugin/damped_steps.hpp"
 
 /// Searches by damped least squares in GPU memory. The kernels take costs and normal equations and
 /// place the states that are evaluated and linearised next.
